@@ -162,6 +162,21 @@ TEST(FeetWay, IsNoneWhileThePoseIsHeld) {
   EXPECT_EQ(without_held_end(held).frames, clip.frames);
 }
 
+// A drawn fox's run ends with a frame in which a few bones turn by a hundredth of what they do otherwise.
+TEST(FeetWay, LeavesAHeldEndOutThatHardlyMoves) {
+  const Kinematics kinematics(humanoid());
+  const Clip clip = on_the_spot(kinematics.skeleton(), gait_clip({0, 1.2, 0, 2}));
+  Clip held = clip;
+  const std::size_t values = clip.rotations.size() / clip.frames, last = clip.rotations.size() - values;
+  for (std::size_t i = last; i < last + values; ++i) {
+    held.rotations.push_back(clip.rotations[i] + 0.005 * (clip.rotations[i] - clip.rotations[i - values]));
+  }
+  held.root_positions.insert(held.root_positions.end(), clip.root_positions.end() - 3, clip.root_positions.end());
+  held.headings.push_back(clip.headings.back());
+  ++held.frames;
+  EXPECT_EQ(without_held_end(held).frames, clip.frames);
+}
+
 // A drawn foot may go back faster, or slower, for a moment as it comes down: it stands for longer than that.
 TEST(FeetWay, IsNotToldByASlapOfTheFeetAtAnyFrameRate) {
   const Kinematics kinematics(humanoid());

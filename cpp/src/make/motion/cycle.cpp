@@ -8,11 +8,12 @@
 #include <vector>
 
 #include "base/rates.hpp"
-#include "base/rounding.hpp"
 #include "skeleton/two_bone_ik.hpp"
 
 namespace fragmotion {
 namespace {
+
+constexpr double kHeld = 0.01;  // of what a clip changes in a frame on the mean: less is nothing
 
 // The poses of a clip, each seen from the character frame of its hips.
 class Poses {
@@ -125,7 +126,7 @@ Clip unrolled(const Kinematics& kinematics, const Clip& clip, int period, int co
 Clip without_held_end(Clip clip) {
   const std::size_t values = clip.rotations.size() / clip.frames;
   const std::vector<double> turns = steps_of(clip.rotations, values), ways = steps_of(clip.root_positions, 3);
-  const double turn = kFileRounding * mean_of(turns), way = kFileRounding * mean_of(ways);
+  const double turn = kHeld * mean_of(turns), way = kHeld * mean_of(ways);
   int frames = clip.frames;
   while (frames > 1 && turns[frames - 2] < turn && ways[frames - 2] <= way) --frames;
   clip.frames = frames;
