@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Container, Iterable, Sequence
 
 import bpy
 import numpy as np
@@ -18,7 +18,8 @@ def say_scaled(obj: bpy.types.Object, actions: Sequence[bpy.types.Action]) -> li
     nothing where none."""
     least, bones = least_way(obj), {bone_path(bone.name, "scale"): bone for bone in obj.data.bones}
     found: dict[str, float] = {}
-    for path, scale in [*_keyed(obj, actions), *_posed(obj, actions)]:
+    keyed = list(_keyed(obj, actions))
+    for path, scale in [*keyed, *_posed(obj, {path for path, _ in keyed})]:
         bone = bones.get(path)
         if bone is not None and abs(scale - 1) * bone.length > least:
             times = max(scale, 1 / max(abs(scale), 1e-3))
@@ -43,8 +44,8 @@ def _keyed(obj: bpy.types.Object, actions: Iterable[bpy.types.Action]) -> Iterab
                 yield curve.data_path, float(keys[1::2].max())
 
 
-def _posed(obj: bpy.types.Object, actions: Iterable[bpy.types.Action]) -> Iterable[tuple[str, float]]:
-    keyed = {path for path, _ in _keyed(obj, actions)}
+def _posed(obj: bpy.types.Object, keyed: Container[str]) -> Iterable[tuple[str, float]]:
+    """The same of the pose, where no curve scales."""
     for bone in obj.pose.bones:
         path = bone_path(bone.name, "scale")
         if path not in keyed:

@@ -74,6 +74,12 @@ TEST_F(TraceFile, WritesPlainShortNumbers) {
   EXPECT_EQ(text, kHeader + "0,1.2,-1,0\n-0.85,0.1,1,1\n");
 }
 
+std::string of_two_bytes(const std::string& ascii) {
+  std::string text;
+  for (const char letter : ascii) text += {letter, '\0'};
+  return text;
+}
+
 TEST_F(TraceFile, ToleratesWhatEditorsDo) {
   for (const std::string& text : {
            kHeader + "0,1.5,0,0\n-1,0,1,1",
@@ -81,6 +87,8 @@ TEST_F(TraceFile, ToleratesWhatEditorsDo) {
            kHeader + "0,1.5,0,0\n-1,0,1,1\n\n  \n",
            "\xEF\xBB\xBF" + kHeader + "0,1.5,0,0\n-1,0,1,1\n",
            std::string("velocity_x,velocity_y,turn,jump\r\n0,1.5,0,0\r\n-1,0,1,1\r\n"),
+           std::string("velocity_x,velocity_y,turn,jump\r0,1.5,0,0\r-1,0,1,1\r"),
+           "\xFF\xFE" + of_two_bytes(kHeader + "0,1.5,0,0\n-1,0,1,1\n"),
            std::string(" velocity_x, velocity_y ,turn,jump \n 0 ,\t1.50, +0,0.0\n-1.0, 0 ,1e0,1 \n"),
        }) {
     write(text);

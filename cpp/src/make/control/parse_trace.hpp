@@ -13,7 +13,7 @@ struct TraceFile {
   Asked asked;
 };
 
-/// read_trace() and read_asked() of a text at hand; `file` names it in errors.
-TraceFile parse_trace(const std::string& text, const std::string& file);
+/// read_trace() and read_asked() of a file's bytes; `file` names it in errors.
+TraceFile parse_trace(std::string bytes, const std::string& file);
 
 }  // namespace fragmotion

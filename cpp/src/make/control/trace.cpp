@@ -13,10 +13,10 @@
 #include <utility>
 #include <vector>
 
+#include "base/decode_text.hpp"
 #include "base/ranges.hpp"
 #include "base/read_file.hpp"
 #include "base/text_reader.hpp"
-#include "base/utf8.hpp"
 #include "base/write_file.hpp"
 #include "control/parse_trace.hpp"
 
@@ -149,7 +149,7 @@ class RowParser {
     split(line, row);
     found_.trace.push_back(parse_control(file_, line, cells_.data()));
     for (std::size_t i = 0; i < further_.size(); ++i) {
-      std::string name = as_utf8(std::move(cells_[std::size(kColumns) + i]));
+      std::string name = std::move(cells_[std::size(kColumns) + i]);
       if (further_[i] == kMove) {
         hold(held_[i], std::move(name));
       } else if (further_[i] == kStyle) {
@@ -391,10 +391,10 @@ std::string format_trace(const Trace& trace, Asked asked) {
 
 }  // namespace
 
-TraceFile parse_trace(const std::string& text, const std::string& file) {
+TraceFile parse_trace(std::string bytes, const std::string& file) {
+  const std::string text = decode_text(std::move(bytes), file);
   std::string_view left = text;
-  if (left.substr(0, 3) == "\xEF\xBB\xBF") left.remove_prefix(3);  // UTF-8 byte order mark
-  left = left.substr(0, left.find_last_not_of(" \t\r\n") + 1);     // blank lines at the end
+  left = left.substr(0, left.find_last_not_of(" \t\r\n") + 1);  // blank lines at the end
   RowParser rows(file, parse_header(file, take_piece(left, '\n')));
   std::size_t line = 1;
   while (!left.empty()) rows.parse(++line, take_piece(left, '\n'));
