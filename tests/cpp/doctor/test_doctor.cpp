@@ -317,11 +317,16 @@ TEST(Doctor, TellsFeetThatHoverOverWhereTheyAreAtRest) {
   }
 }
 
-TEST(Doctor, TellsASlope) {
+Take on_slope(double rises) {
   Take take = walk();
-  for (int f = 0; f < take.frames; ++f) place(take, f)[2] += 0.1 * place(take, f)[1] - 0.18;
-  EXPECT_EQ(codes_of(take), std::vector<std::string>{"slope"});
+  for (int f = 0; f < take.frames; ++f) place(take, f)[2] += rises * place(take, f)[1];
+  return take;
 }
+
+// Walks of 3.6 m.
+TEST(Doctor, TellsASlope) { EXPECT_EQ(codes_of(on_slope(0.1)), std::vector<std::string>{"slope"}); }
+
+TEST(Doctor, TellsNoSlopeThatBuildPutsLevel) { EXPECT_EQ(codes_of(on_slope(0.04)), std::vector<std::string>{}); }
 
 Take in_place(Take take) {
   for (int f = 0; f < take.frames; ++f) place(take, f)[0] = place(take, f)[1] = 0;

@@ -2,10 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <string>
 
 #include "dog.hpp"
 #include "motion/one_floor.hpp"
-#include "walker.hpp"
+#include "on_slope.hpp"
 
 namespace fragmotion {
 namespace {
@@ -25,6 +27,76 @@ void raise(double by, Clip& clip) {
 
 double lowest(const Floors& floors) {
   return std::min({floors[0].ball, floors[0].heel, floors[1].ball, floors[1].heel});
+}
+
+double farthest_apart(const Clip& a, const Clip& b) {
+  double apart = 0;
+  for (std::size_t i = 0; i < a.root_positions.size(); ++i)
+    apart = std::max(apart, std::abs(a.root_positions[i] - b.root_positions[i]));
+  return apart;
+}
+
+const Clip& take_named(const std::string& name) {
+  static const std::vector<Clip> takes = gait_takes();
+  return *std::find_if(takes.begin(), takes.end(), [&](const Clip& take) { return take.name == name; });
+}
+
+// Walks of CMU's subject 2 rise so.
+TEST(OneFloor, PutsWalksLevelThatRise) {
+  const Kinematics kinematics(humanoid());
+  for (const double degrees : {0.5, 1.0, 2.5}) {
+    const double slope = std::tan(degrees * kPi / 180);
+    for (const Vector2& rises : {Vector2(0, slope), Vector2(0, -slope)}) {
+      const Clip level = take_named("walk");
+      Clip clip = on_slope(rises, level);
+      const Contacts contacts = put_level(kinematics, clip);
+      EXPECT_LT(farthest_apart(clip, level), 0.01) << degrees;
+      EXPECT_EQ(contacts.feet, find_contacts(kinematics, level).feet) << degrees;
+    }
+  }
+}
+
+// A walk in a curve tells both slopes; one that is straight nothing of how the floor is aside of it.
+TEST(OneFloor, TellsOnlySlopesAlongTheWay) {
+  const Kinematics kinematics(humanoid());
+  const Vector2 slope(0.02, 0.03);
+  const auto told = [&](const Clip& level) {
+    const Clip clip = on_slope(slope, level);
+    return floor_slope(kinematics.skeleton(), foot_paths(kinematics, clip), hips_path(clip), clip.rate);
+  };
+  EXPECT_LT((told(take_named("curve")) - slope).norm(), 0.003);
+  EXPECT_LT((told(take_named("walk")) - Vector2(0, slope.y())).norm(), 0.003);
+}
+
+TEST(OneFloor, TurnsNoTakeThatIsLevelOrClimbsOrStays) {
+  const Kinematics kinematics(humanoid());
+  std::vector<Clip> clips = gait_takes();
+  clips.push_back(on_slope({0, 0.1}, take_named("walk")));
+  clips.push_back(on_slope({0, 0.6}, take_named("walk")));
+  for (const char* stays : {"stand", "turn"}) clips.push_back(on_slope({0, 0.02}, take_named(stays)));
+  for (Clip& clip : clips) {
+    const Clip before = clip;
+    put_level(kinematics, clip);
+    EXPECT_EQ(clip.root_positions, before.root_positions) << clip.name;
+    EXPECT_EQ(clip.rotations, before.rotations) << clip.name;
+  }
+}
+
+// A leg that is held up for a second is as still as one that stands.
+TEST(OneFloor, IsToldByTheFootBelow) {
+  const Kinematics kinematics(humanoid());
+  Clip level = take_named("walk");
+  const int bones = humanoid().size(), thigh = humanoid().find("thigh.L");
+  const int from = level.frames - 30;
+  for (int f = from; f < level.frames; ++f) {
+    std::copy_n(&level.root_positions[std::size_t{3} * from], 3, &level.root_positions[std::size_t{3} * f]);
+    double* pose = &level.rotations[std::size_t{4} * bones * f];
+    std::copy_n(&level.rotations[std::size_t{4} * bones * from], 4 * bones, pose);
+    store_quaternion(Quaternion(Eigen::AngleAxisd(-kPi / 2, Vector3::UnitX())), pose + std::size_t{4} * thigh);
+  }
+  Clip clip = on_slope({0, 0.02}, level);
+  put_level(kinematics, clip);
+  EXPECT_LT(farthest_apart(clip, level), 0.01);
 }
 
 TEST(OneFloor, BringsTakesToWhereMostStand) {

@@ -97,7 +97,8 @@ FragmentPool captured_pool(const Kinematics& kinematics, const std::vector<Clip>
   const int takes = static_cast<int>(clips.size()), threads = thread_count(options.threads);
   std::vector<Clip> captured =
       parallel_map(takes, threads, [&](int c) { return in_rounds(kinematics, make_clip(skeleton, clips[c])); });
-  std::vector<Contacts> contacts = all_contacts(kinematics, captured, threads);
+  std::vector<Contacts> contacts =
+      parallel_map(takes, threads, [&](int c) { return put_level(kinematics, captured[c]); });
   put_on_one_floor(captured, contacts);
   std::vector<std::vector<int>> seams;
   cut(pool, std::move(captured), contacts, Origin::captured, options, seams);

@@ -13,14 +13,13 @@
 #include "doctor/check.hpp"
 #include "doctor/examine.hpp"
 #include "doctor/lengths.hpp"
-#include "motion/contacts.hpp"
+#include "motion/one_floor.hpp"
 #include "motion/soles.hpp"
 
 namespace fragmotion {
 namespace {
 
-constexpr double kExplained = 0.7;  // of the heights' variance, by a slope
-constexpr int kFewestStands = 10;   // places where feet stand
+constexpr int kFewestStands = 10;  // places where feet stand
 
 /// The lowest joint of a foot, or its end, and where. Ends of what is below the toes' are nobody's: files invent them.
 Vector3 sole(const Patient& patient, int frame, int leg) {
@@ -70,10 +69,19 @@ Stands level_stands(const Patient& patient) {
   return stands_of(led, true);
 }
 
-/// The heights of the lowest joints of feet that stand, m.
+/// Of a floor that Build puts level.
+Vector2 slope_of(const Patient& patient) {
+  const std::optional<Tracks>& tracks = patient.tracks();
+  return tracks ? floor_slope(patient.skeleton(), tracks->feet, tracks->hips, patient.rate()) : Vector2::Zero();
+}
+
+/// The heights of the lowest joints of feet that stand over such a floor through the origin, m.
 std::vector<double> standing_heights(const Patient& patient) {
+  const Stands stands = level_stands(patient);
+  if (stands.empty()) return {};
+  const Vector2 slope = slope_of(patient);
   std::vector<double> heights;
-  for (const Eigen::Vector4d& stand : level_stands(patient)) heights.push_back(stand.z());
+  for (const Eigen::Vector4d& stand : stands) heights.push_back(stand.z() - dot(slope, stand.head<2>()));
   return heights;
 }
 
@@ -102,16 +110,17 @@ double height_over_ground(const Patient& patient) {
   return std::abs(over) * patient.scale() <= kFlatSole ? 0 : over;
 }
 
-/// How much the ground that feet stand on rises or falls over the take, as a plane or with time, m; 0 where it is
-/// level.
+/// How much the ground that feet stand on rises or falls over the take, as a plane or with time, beyond a floor that
+/// Build puts level, m; 0 where it does not.
 double rise_of(const Patient& patient) {
   const Stands stands = stands_of(patient, false);
   if (stands.size() < kFewestStands) return 0;
+  const Vector2 slope = slope_of(patient);
   Eigen::MatrixXd places(stands.size(), 4);
   Eigen::VectorXd heights(stands.size());
   for (std::size_t i = 0; i < stands.size(); ++i) {
     places.row(static_cast<Eigen::Index>(i)) << 1, stands[i].x(), stands[i].y(), stands[i].w();
-    heights[static_cast<Eigen::Index>(i)] = stands[i].z();
+    heights[static_cast<Eigen::Index>(i)] = stands[i].z() - dot(slope, stands[i].head<2>());
   }
   const Eigen::VectorXd fitted = places * least_squares(places, heights);
   const double all = (heights.array() - heights.mean()).square().sum(), left = (heights - fitted).squaredNorm();

@@ -35,7 +35,7 @@ BodyTrack body_track(const Kinematics& kinematics, const Clip& clip) {
   BodyTrack track;
   track.rate = clip.rate;
   track.center = center_of_mass(kinematics, clip);
-  for (int f = 0; f < clip.frames; ++f) track.hips.push_back(load_vector(&clip.root_positions[std::size_t{3} * f]));
+  track.hips = hips_path(clip);
   track.heading = facing(kinematics, clip);
   track.feet = foot_paths(kinematics, clip);
   for (std::vector<Vector3>* path : {&track.center, &track.hips}) scale_path(*path, scale);

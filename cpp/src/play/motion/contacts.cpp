@@ -22,12 +22,6 @@ std::vector<int> changes(const Contacts& contacts, int left, bool stands) {
   return frames;
 }
 
-std::vector<Vector3> hips_path(const Clip& clip) {
-  std::vector<Vector3> hips;
-  for (int f = 0; f < clip.frames; ++f) hips.push_back(load_vector(&clip.root_positions[3 * f]));
-  return hips;
-}
-
 }  // namespace
 
 bool Contacts::any_stands(std::size_t frame) const {

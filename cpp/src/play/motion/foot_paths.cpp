@@ -53,6 +53,12 @@ FootPaths foot_paths(const Kinematics& kinematics, const Clip& clip) {
   return paths;
 }
 
+std::vector<Vector3> hips_path(const Clip& clip) {
+  std::vector<Vector3> hips;
+  for (int f = 0; f < clip.frames; ++f) hips.push_back(load_vector(&clip.root_positions[3 * f]));
+  return hips;
+}
+
 std::vector<bool> foot_contacts(const FootPath& path, const FootHeights& floor, const std::vector<Vector3>& hips,
                                 double rate, double scale) {
   std::vector<bool> flags(path.ball.size());

@@ -32,6 +32,9 @@ struct FootPaths {
 /// Of each foot in a clip; those of a pair are empty where the skeleton has not both.
 FootPaths foot_paths(const Kinematics& kinematics, const Clip& clip);
 
+/// That of the hips in a clip: [frames] m.
+std::vector<Vector3> hips_path(const Clip& clip);
+
 /// When a foot of this path stands on this floor, as find_contacts() tells it: [frames]. `hips`: their path; times
 /// `scale`, lengths are those of a character of 1.8 m.
 std::vector<bool> foot_contacts(const FootPath& path, const FootHeights& floor, const std::vector<Vector3>& hips,
