@@ -23,6 +23,7 @@ from ..mocap.on_the_spot import lead_by_feet
 from ..mocap.sampling import rig_as_posed, sample_parts
 from ..mocap.styles import grouped, style_of
 from ..recordings.traces import make_traces
+from ..rig.bodies import keep_legs_of_skin
 from ..rig.external_motion import external_motion
 from ..rig.hanging import find_hanging
 from ..rig.held import keep_held
@@ -94,6 +95,7 @@ def gather(context: bpy.types.Context, obj: bpy.types.Object, settings: Any) -> 
     takes = _ticked(obj)
     context.view_layer.update()
     keep_held(obj, actions.with_own_bones(obj))
+    keep_legs_of_skin(obj, make_rig(obj))
     found = find_hanging(context, obj, takes)
     rig = make_rig(obj)
     carriers(obj, rig)

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import bpy
+import numpy as np
 from bpy.props import BoolProperty, StringProperty
 
 from ..compat.core import core
@@ -39,6 +40,7 @@ _NEEDED_ON_FOUR_LEGS = (
     *(f"{side}_{part}" for part in ("thigh", "foot", "fore_leg", "fore_foot") for side in ("left", "right")),
 )
 """and those of a body that stands on four legs."""
+_FEET = ("left_foot", "right_foot")
 
 
 def _drop_doubt_of_another(role: RoleBone, _context: bpy.types.Context) -> None:
@@ -88,6 +90,35 @@ def keep_four_legs(obj: bpy.types.Object, skeleton: Skeleton) -> None:
     pose does not."""
     if FORE_FOOT in skeleton.roles and FORE_FOOT not in make_rig(obj).skeleton.roles:
         set_roles(obj, {role: bone for role, (bone, _) in skeleton.role_map().items()})
+
+
+def keep_legs_of_skin(obj: bpy.types.Object, rig: Rig) -> None:
+    """Keep with an armature whose bones nobody has chosen what its meshes tell of them, where they follow other feet
+    than those that its names tell: MMD's models hang theirs on copies of the legs."""
+    if obj.library is not None or chosen_roles(obj) is not None:
+        return
+    named = {role: bone for role, (bone, _) in rig.skeleton.role_map().items()}
+    if _tells_other_feet(_all_but_feet(rig.skeleton, named), rig, named):
+        skin = make_skin(obj, rig)
+        if _tells_other_feet(skin, rig, named):
+            set_roles(obj, _find_roles(rig, skin))
+
+
+def _tells_other_feet(skin: Skin, rig: Rig, named: Mapping[str, str]) -> bool:
+    found = _find_roles(rig, skin)
+    return any(role in found and found[role] != named.get(role) for role in _FEET)
+
+
+def _all_but_feet(skeleton: Skeleton, named: Mapping[str, str]) -> Skin:
+    """As if a mesh followed all bones but the feet that names tell: cheaper than to read one."""
+    feet = {skeleton.names.index(named[role]) for role in _FEET if role in named}
+    for bone, parent in enumerate(skeleton.parents):
+        if parent in feet:
+            feet.add(bone)
+    others = [name for bone, name in enumerate(skeleton.names) if bone not in feet]
+    skin: Skin = core.Skin(skeleton)
+    skin.add(np.eye(4), np.zeros((1, 3)), others, np.array([(0, group, 1) for group in range(len(others))], float))
+    return skin
 
 
 def open_doubts(obj: bpy.types.Object) -> list[DoubtfulBone]:

@@ -15,22 +15,36 @@ from .rigs import held_of, stretch_of
 if TYPE_CHECKING:
     from fragmotion_core import Doubles, Rig, Skin
 
+_TURNS = ("COPY_ROTATION", "COPY_TRANSFORMS", "TRANSFORM", "ARMATURE")
+"""Constraints by which a bone turns as others of its armature do."""
+
 
 def make_skin(obj: bpy.types.Object, rig: Rig) -> Skin:
     """The skin of an armature: the meshes that it deforms by their vertex groups, and those that are its bones'
-    children."""
+    children; but for what follows bones that constraints turn as others are turned."""
     skin: Skin = core.Skin(rig.skeleton)
+    copies = _copies(obj)
     to = stretch_of(rig).inverted() @ _carried(obj, rig)
     for mesh in bpy.data.objects:
         if mesh.type != "MESH":
             continue
         if mesh.find_armature() == obj:
-            skin.add(np.array(to @ mesh.matrix_world), _points(mesh), mesh.vertex_groups.keys(), _weights(mesh))
+            groups = ["" if name in copies else name for name in mesh.vertex_groups.keys()]
+            skin.add(np.array(to @ mesh.matrix_world), _points(mesh), groups, _weights(mesh))
         elif mesh.parent == obj and mesh.parent_type == "BONE" and mesh.parent_bone in obj.data.bones:
             points = _points(mesh)
             rows = np.column_stack([np.arange(len(points)), np.zeros(len(points)), np.ones(len(points))])
             skin.add(np.array(to @ _resting(mesh, obj)), points, [mesh.parent_bone], rows)
     return skin
+
+
+def _copies(obj: bpy.types.Object) -> set[str]:
+    return {
+        bone.name
+        for bone in obj.pose.bones
+        for each in bone.constraints
+        if each.type in _TURNS and not each.mute and each.influence > 0
+    }
 
 
 def _carried(obj: bpy.types.Object, rig: Rig) -> Matrix:

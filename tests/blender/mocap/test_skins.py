@@ -93,3 +93,39 @@ def test_a_foot_that_moves_no_mesh_is_none(addon: ModuleType, obj: bpy.types.Obj
     assert addon.rig.bodies.make_body(obj, rig).roles["left_foot"] == "joint.L"
     assert bpy.ops.fragmotion.find_bones() == {"FINISHED"}
     assert obj.fragmotion.roles["left_foot"].bone == "joint.L"
+
+
+@pytest.fixture
+def with_copies(obj: bpy.types.Object) -> bpy.types.Object:
+    """Beside each leg is a copy of it that a mesh follows, as MMD's models have them; with an Action that turns all."""
+    with making.editing(obj) as bones:
+        for side in "LR":
+            for part, above in (("thigh", "hips"), ("shin", f"thigh D.{side}"), ("foot", f"shin D.{side}")):
+                real, copy = bones[f"{part}.{side}"], bones.new(f"{part} D.{side}")
+                copy.head, copy.tail, copy.parent = real.head, real.tail, bones[above]
+    mesh = add_hand(obj)
+    deform(mesh, obj)
+    for side in "LR":
+        mesh.vertex_groups.new(name=f"foot D.{side}").add([0], 0.5, "REPLACE")
+    making.add_action(obj, 40).fragmotion.use = True
+    return obj
+
+
+def test_of_two_legs_that_are_alike_build_takes_the_one_that_moves_the_mesh(
+    addon: ModuleType, with_copies: bpy.types.Object
+) -> None:
+    assert bpy.ops.fragmotion.build() == {"FINISHED"}
+    roles = addon.rig.rigs.make_rig(with_copies).skeleton.roles
+    assert [roles[role] for role in ("left_thigh", "left_foot", "right_foot")] == ["thigh D.L", "foot D.L", "foot D.R"]
+    assert with_copies.fragmotion.roles["left_shin"].bone == "shin D.L"
+
+
+def test_copies_that_constraints_turn_are_no_legs(addon: ModuleType, with_copies: bpy.types.Object) -> None:
+    for side in "LR":
+        for part in ("thigh", "shin", "foot"):
+            constraint = with_copies.pose.bones[f"{part} D.{side}"].constraints.new("COPY_ROTATION")
+            constraint.target, constraint.subtarget = with_copies, f"{part}.{side}"
+    assert bpy.ops.fragmotion.build() == {"FINISHED"}
+    assert addon.rig.rigs.make_rig(with_copies).skeleton.roles["left_foot"] == "foot.L"
+    assert bpy.ops.fragmotion.find_bones() == {"FINISHED"}
+    assert with_copies.fragmotion.roles["left_foot"].bone == "foot.L"

@@ -319,6 +319,30 @@ TEST(RoleMap, AFootThatCarriesNoSkinGivesWayToTheOneBesideItThatDoes) {
   EXPECT_EQ(foot(&skin), "foot_l");
 }
 
+// As MMD's models have them.
+TEST(RoleMap, ALegWhoseFootCarriesNoSkinGivesWayToItsCopyThatDoes) {
+  Skeleton skeleton = Humanoid(family_named("MMD")).skeleton;
+  const auto copy = [&](const std::string& name, const std::string& parent) {
+    append(skeleton, name + "D", parent, skeleton.offsets[skeleton.find(name)]);
+  };
+  for (const std::string side : {"左", "右"}) {
+    copy(side + "足", skeleton.names[skeleton.parents[skeleton.find(side + "足")]]);
+    copy(side + "ひざ", side + "足D");
+    copy(side + "足首", side + "ひざD");
+  }
+  const auto leg = [&](const Skin* skin) {
+    const Names named = named_bones(skeleton, find_role_map(skeleton, nullptr, Sides::of_the_body, skin));
+    return named.at("left_thigh") + " " + named.at("left_shin") + " " + named.at("right_foot");
+  };
+  EXPECT_EQ(leg(nullptr), "左足 左ひざ 右足首");
+  Skin skin;
+  skin.points.assign(1, Vector3::Zero());
+  for (const std::string name : {"左足", "左足首D", "右足首D"}) skin.weights.push_back({0, skeleton.find(name), 1});
+  EXPECT_EQ(leg(&skin), "左足D 左ひざD 右足首D");
+  for (const std::string name : {"左足首", "右足首"}) skin.weights.push_back({0, skeleton.find(name), 1});
+  EXPECT_EQ(leg(&skin), "左足 左ひざ 右足首") << "where both carry skin names tell";
+}
+
 // As Quaternius' dinosaurs have them, whose arms are called legs.
 // Legs alone are no body that its shape tells; it faces -y. Tips that go on down the leg tell nothing.
 TEST(RoleMap, TellsSidesByTheFeetWhereNamesHaveThemTheWrongWayRound) {

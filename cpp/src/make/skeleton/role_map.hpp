@@ -85,7 +85,7 @@ enum class Sides { of_the_body, of_the_names };
 /// bones, what is lowest, where the feet point; by `motion` too, where given: which joints bend, to where knees do,
 /// which way is up. Names that contradict the hierarchy tell nothing, nor does the shape what names contradict, but for
 /// left and right, where `sides` are the body's. What stands on four legs at rest is told by its shape alone. Of two
-/// feet of a leg that names tell, the one that carries `skin`, where given, is the foot.
+/// feet of a leg that names tell, and of two legs that they name alike, it is the one that carries `skin`, where given.
 RoleMap find_role_map(const Skeleton& skeleton, const ObservedPoses* motion = nullptr, Sides sides = Sides::of_the_body,
                       const Skin* skin = nullptr);
 
