@@ -21,7 +21,7 @@ from .compat.core import command
 from .errors import UserError, core_errors
 from .mocap.actions import ticked
 from .mocap.importing import METRES
-from .mocap.sampling import rig_as_posed
+from .mocap.sampling import rig_with_feet
 from .mocap.take_files import BY_BLENDER, find_takes
 from .mocap.target_rigs import open_rig, save_minute
 from .operators.base.context import active_armature
@@ -328,7 +328,7 @@ def _retarget(options: argparse.Namespace) -> running.Done:
         raise UserError(f"--blend is for rigs, and {options.onto.name} is a skeleton alone: leave it out")
     takes = sources.read_sources(options.takes, options.unit)
     obj = open_rig(options.onto, options.armature)
-    rig = rig_as_posed(obj)
+    rig = rig_with_feet(bpy.context, obj)
     with core_errors(f"Armature '{obj.name}'"):
         body = roles.make_body(rig.skeleton, [], options.roles, make_skin(obj, rig))
     done, character = retargeting.bring(options, takes, body)

@@ -26,7 +26,7 @@ from .by_blender import NoTakes
 from .comparing import keep_source
 from .doctor import WAIT, examine, keep_findings, keep_remarks
 from .retargeting import Brought, Channels, has_names_of, is_as_tall, key_times, make_action, retargeted_takes
-from .sampling import rig_as_posed
+from .sampling import rig_with_feet
 from .scratch import scratch_scene
 from .take_files import BY_BLENDER, TakeFile
 
@@ -91,7 +91,7 @@ def import_takes(
         obj = onto or make_armature(context, name, takes[0].skeleton)
         if onto is None:
             keep_four_legs(obj, takes[0].skeleton)
-        rig = rig_as_posed(obj)
+        rig = rig_with_feet(context, obj)
         fitting, refused, resized = _brought(obj, rig, takes, is_new=onto is None)
         if not fitting:
             raise UserError(refused[0])

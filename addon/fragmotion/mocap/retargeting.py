@@ -21,7 +21,7 @@ from .comparing import keep_source
 from .doctor import keep_remarks
 from .left_out import leave_out_likewise
 from .markers import mark_likewise
-from .sampling import rig_as_posed, sample, sample_times, scene_rate
+from .sampling import rig_as_posed, rig_with_feet, sample, sample_times, scene_rate
 
 if TYPE_CHECKING:
     from fragmotion_core import Body, Clip, Doubles, RetargetedClip, Rig, Skeleton, Take
@@ -108,7 +108,7 @@ def retarget_actions(
 ) -> Generator[float, None, list[bpy.types.Action]]:
     """New Actions, ticked, in which the armature does what the source does in its Actions. Gives the share that is
     done; on an error, and where it is closed before its end, there are none."""
-    source_rig, rig = rig_as_posed(source), rig_as_posed(obj)
+    source_rig, rig = rig_as_posed(source), rig_with_feet(context, obj)
     moving = carriers(obj, rig)
     clips = []
     for index, action in enumerate(actions):

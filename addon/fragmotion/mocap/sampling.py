@@ -14,11 +14,12 @@ from mathutils import Matrix, Quaternion, Vector
 from ..compat import versions
 from ..errors import SinglePose, UserError, core_errors
 from ..rig import posing
+from ..rig.hanging import find_hanging, moves_beside
 from ..rig.held import keep_held
 from ..rig.keys import from_quaternions, to_quaternions
 from ..rig.rigs import bone_path, held_of, is_tied, make_rig
 from . import left_out
-from .actions import RATE, SCENE_RATE, animated_bones, rate_of, with_own_bones
+from .actions import RATE, SCENE_RATE, animated_bones, fitting, rate_of, with_own_bones
 from .curve_points import points_of
 from .markers import markers_of
 
@@ -27,6 +28,7 @@ if TYPE_CHECKING:
 
 Curves = dict[tuple[str, int], bpy.types.FCurve]
 
+_FEET = {"left_foot", "right_foot"}
 _FEWEST_FRAMES = 2
 _MOST_FRAMES = 2_000_000  # of an Action: more than four hours at 120 frames a second
 _SAME_FRAME = 0.01  # keys closer than this to a frame are on it
@@ -42,6 +44,17 @@ _OBJECT_CHANNELS = ("location", "rotation_euler", "rotation_quaternion", "rotati
 def rig_as_posed(obj: bpy.types.Object) -> Rig:
     """The armature as `make_rig` has it, whose bones that no Action of the file keys are held as they are posed now."""
     keep_held(obj, with_own_bones(obj))
+    return make_rig(obj)
+
+
+def rig_with_feet(context: bpy.types.Context, obj: bpy.types.Object) -> Rig:
+    """As `rig_as_posed`, to bring motion onto: where a leg's foot hangs elsewhere, as baked targets of IK do, the
+    armature's own Actions show that it moves with the leg."""
+    rig = rig_as_posed(obj)
+    own = fitting(obj) if obj.library is None else []
+    if not own or rig.skeleton.role_map().keys() >= _FEET:
+        return rig
+    find_hanging(context, obj, [action for action in own if moves_beside(obj, rig, action)])
     return make_rig(obj)
 
 

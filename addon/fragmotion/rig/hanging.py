@@ -49,6 +49,12 @@ def find_hanging(context: bpy.types.Context, obj: bpy.types.Object, actions: Seq
     return _say(obj, make_rig(obj) if found else rig, candidates)
 
 
+def moves_beside(obj: bpy.types.Object, rig: Rig, action: bpy.types.Action) -> bool:
+    """Whether an Action moves bones against their parents that carry no body."""
+    least, carrying = least_way(obj), carriers(obj, rig)
+    return any(_is_moved(obj, action, bone, least) for bone in obj.data.bones if bone.name not in carrying)
+
+
 def least_way(obj: bpy.types.Object) -> float:
     """How far at least a bone goes that is seen to, in the armature's units."""
     return _STRAYS * float(np.ptp([bone.head_local for bone in obj.data.bones], axis=0).max())

@@ -29,7 +29,7 @@ def make_skin(obj: bpy.types.Object, rig: Rig) -> Skin:
         if mesh.type != "MESH":
             continue
         if mesh.find_armature() == obj:
-            groups = ["" if name in copies else name for name in mesh.vertex_groups.keys()]
+            groups = ["" if name in copies else name for name, _ in mesh.vertex_groups.items()]
             skin.add(np.array(to @ mesh.matrix_world), _points(mesh), groups, _weights(mesh))
         elif mesh.parent == obj and mesh.parent_type == "BONE" and mesh.parent_bone in obj.data.bones:
             points = _points(mesh)

@@ -65,6 +65,27 @@ def test_bakes_bring_them_to_where_the_legs_end(addon: ModuleType, baked_ik: bpy
             assert np.linalg.norm(place - rest[foot]) < 1e-3
 
 
+def test_motion_comes_onto_them_as_the_armature_s_own_actions_show(
+    addon: ModuleType, baked_ik: bpy.types.Object
+) -> None:
+    rest = {foot: _seen_from(baked_ik.data.bones, foot, shin, "matrix_local") for foot, shin in FEET.items()}
+    bpy.data.batch_remove([action for action in bpy.data.actions if action.name != "walk forward"])
+    source = making.add_armature(name="Source")
+    making.add_action(source, 30).fragmotion.use = True
+    making.activate(baked_ik)
+    baked_ik.fragmotion.source = source
+    assert bpy.ops.fragmotion.retarget_actions() == {"FINISHED"}
+    assert {row.name: row.on for row in baked_ik.fragmotion.hanging} == FEET
+    addon.compat.versions.assign(baked_ik, bpy.data.actions["take on " + baked_ik.name])
+    places = []
+    for frame in range(1, 30, 4):
+        bpy.context.scene.frame_set(frame)
+        places.append([baked_ik.pose.bones[foot].head.copy() for foot in FEET])
+        for foot, shin in FEET.items():
+            assert np.linalg.norm(_seen_from(baked_ik.pose.bones, foot, shin, "matrix") - rest[foot]) < 1e-3
+    assert np.ptp(places, axis=0).max() > 0.01
+
+
 def _seen_from(bones: object, foot: str, shin: str, matrix: str) -> np.ndarray:
     """The head of a foot as its shin sees it, m."""
     frames = (np.array(getattr(bones[name], matrix)) for name in (shin, foot))  # type: ignore[index]
