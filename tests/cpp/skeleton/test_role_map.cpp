@@ -233,6 +233,22 @@ TEST(RoleMap, CountsFingersAsTheFamilyDoes) {
   }
 }
 
+// Helpers of MMD's models, by which a hand closes.
+TEST(RoleMap, AFingerThatCarriesNoSkinGivesWayToOneThatDoes) {
+  Skeleton skeleton = Humanoid(family_named("MMD")).skeleton;
+  for (const std::string bone : {"左人指_握り", "左人指１"}) append(skeleton, bone, "左手首", {0.03, 0, 0});
+  const auto index = [&](const Skin* skin) {
+    return named_bones(skeleton, find_role_map(skeleton, nullptr, Sides::of_the_body, skin)).at("left_index_1");
+  };
+  Skin skin;
+  skin.points.assign(1, Vector3::Zero());
+  skin.weights.push_back({0, skeleton.find("左手首"), 1});
+  EXPECT_EQ(index(nullptr), "左人指_握り");
+  EXPECT_EQ(index(&skin), "左人指_握り") << "neither does";
+  skin.weights.push_back({0, skeleton.find("左人指１"), 1});
+  EXPECT_EQ(index(&skin), "左人指１");
+}
+
 TEST(RoleMap, CountsFingersByTheirOwnNumbers) {
   Skeleton skeleton = Humanoid(family_named("Biped")).skeleton;
   for (const char* bone : {"Finger0", "Finger1", "Finger4"}) {

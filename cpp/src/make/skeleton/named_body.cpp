@@ -17,8 +17,8 @@ constexpr double kDeeper = 1e-3;  // of equals the bone nearest to the trunk
 
 double confidence_of(double score) { return score >= 2.4 ? 0.95 : score >= 1.5 ? 0.9 : score > 0.3 ? 0.8 : 0.6; }
 
-/// Finds a limb of one side: the chain of bones below each other that the names fit best. Of limbs named alike it is the
-/// one whose hand or foot carries skin: MMD's models hang theirs on copies of the bones that their motions turn.
+/// Finds a limb of one side: the chain of bones below each other that the names fit best. Of limbs named alike it is
+/// the one whose hand or foot carries skin: MMD's models hang theirs on copies of the bones that their motions turn.
 class LimbFinder {
  public:
   LimbFinder(const BodyTree& tree, int side, const LimbRoles& roles)

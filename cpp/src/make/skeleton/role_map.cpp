@@ -172,12 +172,15 @@ class MapMaker {
     if (from < 0) return;
     const FingerNumbers usual = finger_numbers();
     std::array<std::vector<int>, 5> fingers;
-    for (int b = from + 1; b < tree_.size(); ++b) {
-      if (!tree_.in_body[b] || tree_.names[b].side != kSides[side] || !tree_.is_below(b, from)) continue;
-      const int finger = finger_of(tree_.names[b], usual);
-      if (finger < 0 || fingers[finger].size() >= kMostJoints) continue;
-      const bool goes_on = fingers[finger].empty() || tree_.is_below(b, fingers[finger].back());
-      if (goes_on) fingers[finger].push_back(b);
+    for (const bool bare : {false, true}) {  // what carries no skin begins a finger where nothing else does
+      for (int b = from + 1; b < tree_.size(); ++b) {
+        if (!tree_.in_body[b] || tree_.names[b].side != kSides[side] || !tree_.is_below(b, from)) continue;
+        const int finger = finger_of(tree_.names[b], usual);
+        if (finger < 0 || fingers[finger].size() >= kMostJoints) continue;
+        const bool begins = fingers[finger].empty() && tree_.bare[b] == bare;
+        if (begins || (!fingers[finger].empty() && tree_.is_below(b, fingers[finger].back())))
+          fingers[finger].push_back(b);
+      }
     }
     for (int finger = 0; finger < 5; ++finger) {
       for (std::size_t i = 0; i < fingers[finger].size(); ++i) {
