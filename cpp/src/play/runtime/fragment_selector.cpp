@@ -66,10 +66,9 @@ void FragmentSelector::find_candidates(int next_class, const Control& control, c
   const Entry entry{control, left.fragment.origin == Origin::mirrored, is_here ? left.fragment.clip : -1,
                     matches_jump(usually, control), c.space.asks_to_go(control) && answers(usually, control)};
   const Entrants& entrants = style_->members[next_class];
-  auto& [apart, barred] = workspace_->entering;
   float* costs = candidates.costs.data();
-  style_->cost.of_entering(entrants, entry, apart.data(), barred.data(), costs);
-  candidates.best = static_cast<int>(std::min_element(costs, costs + entrants.count) - costs);
+  style_->cost.of_entering(entrants, entry, workspace_->entering.data(), costs);
+  candidates.best = first_of_least(costs, entrants.stride);
 }
 
 bool FragmentSelector::is_moving(const Control& evident) const {
@@ -108,8 +107,9 @@ float FragmentSelector::least_cost(int next_class, const Control& evident, const
     candidates.best = member;
   };
   look(candidates.best);
-  for (int first = 0; first < entrants.count; first += kLanes) {
-    if (!cost.any_under(entrants, first, candidates.costs.data(), usual, most)) continue;
+  for (int first = 0;; first += kLanes) {
+    first = cost.next_under(entrants, first, candidates.costs.data(), usual, most);
+    if (first >= entrants.count) break;
     for (int member = first; member < first + kLanes; ++member) look(member);
   }
   return most;

@@ -83,39 +83,55 @@ float TransitionCost::of_going_on(int fragment, const Control& control) const {
 }
 
 FRAGMOTION_VECTORISED void TransitionCost::of_entering(const Entrants& entrants, const Entry& entry,
-                                                       double* __restrict apart, double* __restrict barred,
-                                                       float* __restrict costs) const {
-  const double infinite = std::numeric_limits<double>::infinity();
+                                                       double* __restrict apart, float* __restrict costs) const {
+  const float infinite = std::numeric_limits<float>::infinity();
   const int count = entrants.stride / kLanes * kLanes;
   const Control wanted = entry.control;
   const ControlMetric metric = character_->space.metric();
   const double *x = entrants.evidents.data(), *y = x + count, *turn = y + count, *jump = turn + count;
   for (int i = 0; i < count; ++i) apart[i] = metric({x[i], y[i], turn[i], jump[i]}, wanted);
-  for (int i = 0; i < count; ++i) barred[i] = 0;
-  if (entry.matches) {
-    for (int i = 0; i < count; ++i) barred[i] = matches_jump({0, 0, 0, jump[i]}, wanted) ? barred[i] : infinite;
-  }
-  if (entry.goes) {
-    for (int i = 0; i < count; ++i) barred[i] = goes_along(x[i], y[i], wanted) ? barred[i] : infinite;
-  }
   const int *clip = entrants.numbers.data() + count, *mirrored = clip + count;
   const float *made = entrants.costs.data(), *entered = made + count;
   const float match = match_, manner = manner_;
   for (int i = 0; i < count; ++i) {
     const float side = mirrored[i] == (entry.is_mirrored ? 1 : 0) ? 0 : manner,
                 take = clip[i] == entry.clip ? 0 : manner;
-    costs[i] =
-        match * static_cast<float>(apart[i]) + made[i] + entered[i] + side + take + static_cast<float>(barred[i]);
+    costs[i] = match * static_cast<float>(apart[i]) + made[i] + entered[i] + side + take;
+  }
+  if (entry.matches) {
+    for (int i = 0; i < count; ++i) costs[i] = matches_jump({0, 0, 0, jump[i]}, wanted) ? costs[i] : infinite;
+  }
+  if (entry.goes) {
+    for (int i = 0; i < count; ++i) costs[i] = goes_along(x[i], y[i], wanted) ? costs[i] : infinite;
   }
 }
 
-bool TransitionCost::any_under(const Entrants& entrants, int first, const float* costs, float usual, float most) const {
-  const float* beside = &entrants.costs[std::size_t{2} * entrants.stride + first];
+FRAGMOTION_VECTORISED int first_of_least(const float* costs, int stride) {
+  float least[kLanes];
+  std::copy_n(costs, kLanes, least);
+  for (int first = kLanes; first < stride; first += kLanes) {
+    for (int i = 0; i < kLanes; ++i) least[i] = costs[first + i] < least[i] ? costs[first + i] : least[i];
+  }
+  const float found = *std::min_element(least, least + kLanes);
+  for (int first = 0; first < stride; first += kLanes) {
+    int equal = 0;
+    for (int i = first; i < first + kLanes; ++i) equal |= costs[i] == found ? 1 : 0;
+    if (equal != 0) return static_cast<int>(std::find(costs + first, costs + first + kLanes, found) - costs);
+  }
+  return 0;
+}
+
+FRAGMOTION_VECTORISED int TransitionCost::next_under(const Entrants& entrants, int first, const float* costs,
+                                                     float usual, float most) const {
+  const float* beside = &entrants.costs[std::size_t{2} * entrants.stride];
   const float per_distance = per_distance_;
-  int under = 0;
-  for (int i = 0; i < kLanes; ++i)
-    under |= costs[first + i] + std::max(0.0F, usual - beside[i]) * per_distance < most ? 1 : 0;
-  return under != 0;
+  for (; first < entrants.stride; first += kLanes) {
+    int under = 0;
+    for (int i = first; i < first + kLanes; ++i)
+      under |= costs[i] + std::max(0.0F, usual - beside[i]) * per_distance < most ? 1 : 0;
+    if (under != 0) break;
+  }
+  return first;
 }
 
 }  // namespace fragmotion

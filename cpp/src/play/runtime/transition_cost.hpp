@@ -27,6 +27,9 @@ struct Entrants {
   }
 };
 
+/// Which of a row of costs in whole blocks of kLanes is the first one that is the least.
+int first_of_least(const float* costs, int stride);
+
 /// What members of a class enter after, mirrored or not, of a clip of this number; under which control, and whether
 /// those alone may that jump, or do not, as is wanted, and that answer() it.
 struct Entry {
@@ -63,14 +66,13 @@ class TransitionCost {
   float of_going_on(int fragment, const Control& control) const;
   /// The members of each class.
   std::vector<Entrants> entrants() const;
-  /// Writes perform() + enter() of each, infinite where it may not be entered, to a row of costs; in two others it
-  /// works.
-  void of_entering(const Entrants& entrants, const Entry& entry, double* __restrict apart, double* __restrict barred,
+  /// Writes perform() + enter() of each, infinite where it may not be entered, to a row of costs; in another it works.
+  void of_entering(const Entrants& entrants, const Entry& entry, double* __restrict apart,
                    float* __restrict costs) const;
-  /// Whether any of a block, from a member on, may cost less than `most` where these costs are known, and the
-  /// representative joins by a tip_distance() that is `usual`: by the triangle inequality the beginning of another is
-  /// at least as far as that, less what is between the two.
-  bool any_under(const Entrants& entrants, int first, const float* costs, float usual, float most) const;
+  /// The first block, from that of a member on, of which any may cost less than `most` where these costs are known, and
+  /// the representative joins by a tip_distance() that is `usual`: by the triangle inequality the beginning of another
+  /// is at least as far as that, less what is between the two. Beyond all members where there is none.
+  int next_under(const Entrants& entrants, int first, const float* costs, float usual, float most) const;
   /// join() by a tip_distance() of places and of speeds, both of which it sums, for so many feet out of turn.
   float of_joining(float distance, int out_of_turn) const {
     return distance * per_distance_ + out_of_turn_ * out_of_turn;

@@ -50,7 +50,7 @@ Workspace::Workspace(const Character& character, const PlayerConstants& constant
     }
   }
   for (Candidates& each : candidates) each.costs.resize(most + kLanes);
-  for (std::vector<double>& each : entering) each.resize(most + kLanes);
+  entering.resize(most + kLanes);
   drawn.reserve(most);
   shown.rotations.resize(std::size_t{4} * kinematics.bones());
   poses.fill(shown);

@@ -60,7 +60,7 @@ struct Workspace {
   std::array<BodyTips, 3> tips;
   std::vector<float> onward;                    ///< Tips of what is shown, and of how it would go on.
   std::array<Candidates, 2> candidates;         ///< Of one class, or of the two that are compared.
-  std::array<std::vector<double>, 2> entering;  ///< Room for TransitionCost::of_entering().
+  std::vector<double> entering;                 ///< Room for TransitionCost::of_entering().
   std::vector<std::pair<float, int>> drawn;     ///< Costs and fragments of those that one is drawn of.
 
   UnpackedPoses unpacked;          ///< Of all that plays.
