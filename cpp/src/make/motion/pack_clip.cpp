@@ -234,7 +234,7 @@ void measure_turns(const std::vector<std::int32_t>& steps, std::size_t width, Pa
 }
 
 void write_poses(const Clip& clip, const std::vector<std::int32_t>& steps, PackedPoses& poses) {
-  const std::size_t bytes = bytes_for(poses.bits), width = poses.least.size();
+  const std::size_t bytes = poses.pose_bytes = bytes_for(poses.bits), width = poses.least.size();
   poses.bytes.assign(bytes * clip.frames + PackedPoses::kSpare, 0);
   for (int f = 0; f < clip.frames; ++f) {
     BitWriter write(&poses.bytes[bytes * f]);

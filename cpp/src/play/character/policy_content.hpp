@@ -55,6 +55,7 @@ void exchange_poses(Archive& a, PackedPoses& poses) {
   a.packed(poses.least);
   a.template numbers<std::uint8_t>(poses.bits);
   a.template numbers<std::uint8_t>(poses.bytes);
+  poses.pose_bytes = bytes_for(poses.bits);
 }
 
 // The number of a clip's original, or -1 and what the clip has itself.

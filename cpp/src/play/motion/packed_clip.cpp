@@ -31,8 +31,8 @@ struct PackedBetween {
   double weight;
 
   PackedBetween(const PackedClip& clip, double at)
-      : frame(std::clamp(static_cast<int>(std::floor(at)), 0, clip.frames - 1)) {
-    const std::size_t bytes = clip.poses->pose_bytes(clip.frames);
+      : frame(std::clamp(static_cast<int>(at), 0, clip.frames - 1)) {
+    const std::size_t bytes = clip.poses->pose_bytes;
     pose = &clip.poses->bytes[bytes * frame];
     next = pose + (frame + 1 < clip.frames ? bytes : 0);
     weight = std::clamp(at - frame, 0.0, 1.0);
@@ -84,8 +84,8 @@ void check_poses(const PackedPoses& poses, int frames, const PoseGrid& grid) {
     require(poses.steps[i] > 0 && std::abs(poses.origin[i]) < kLargestNumber &&
             poses.steps[i] * kMostSteps < kLargestNumber);
   }
-  require(poses.bytes.size() >= PackedPoses::kSpare && (poses.bytes.size() - PackedPoses::kSpare) % frames == 0 &&
-          poses.pose_bytes(frames) == bytes_for(poses.bits));
+  require(poses.pose_bytes == bytes_for(poses.bits) &&
+          poses.bytes.size() == poses.pose_bytes * frames + PackedPoses::kSpare);
 }
 
 using Turns = std::int32_t[3][kBoneBlock];
@@ -109,20 +109,20 @@ template <bool kTwo>
 }
 
 // Unit quaternions from the turns x, y, z that are given in steps.
-struct LaneQuaternions : TurnBlock {
-  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init): the loop fills them
-  [[gnu::always_inline]] LaneQuaternions(const Turns& numbers, const float* steps) {
-    for (int i = 0; i < kBoneBlock; ++i) {
-      const float a = steps[i] * static_cast<float>(numbers[0][i]), b = steps[i] * static_cast<float>(numbers[1][i]),
-                  c = steps[i] * static_cast<float>(numbers[2][i]), square = a * a + b * b + c * c,
-                  scale = 1 / (1 + square);
-      w[i] = (1 - square) * scale;
-      x[i] = 2 * scale * a;
-      y[i] = 2 * scale * b;
-      z[i] = 2 * scale * c;
-    }
+[[gnu::always_inline]] inline void write_turns(const Turns& numbers, const float* steps, TurnBlock& __restrict turns) {
+  for (int i = 0; i < kBoneBlock; ++i) {
+    const float a = steps[i] * static_cast<float>(numbers[0][i]), b = steps[i] * static_cast<float>(numbers[1][i]),
+                c = steps[i] * static_cast<float>(numbers[2][i]), square = a * a + b * b + c * c,
+                scale = 1 / (1 + square);
+    turns.w[i] = (1 - square) * scale;
+    turns.x[i] = 2 * scale * a;
+    turns.y[i] = 2 * scale * b;
+    turns.z[i] = 2 * scale * c;
   }
+}
 
+// Quaternions of a block of bones.
+struct LaneQuaternions : TurnBlock {
   // So far straight from one to another, on the shorter way, made unit. They are read where they are: copied in small
   // parts, they would have to be waited for before they are loaded in large ones.
   // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init): the loop fills them
@@ -194,8 +194,8 @@ FRAGMOTION_VECTORISED unsigned unpack_block(const PackedClip& clip, int block, c
   Turns a, b;
   bit = next != nullptr ? read_turns<true>(pose, next, bit, bits, least, a, b)
                         : read_turns<false>(pose, pose, bit, bits, least, a, b);
-  turns = LaneQuaternions(a, steps);
-  if (next != nullptr) next_turns = LaneQuaternions(b, steps);
+  write_turns(a, steps, turns);
+  if (next != nullptr) write_turns(b, steps, next_turns);
   return bit;
 }
 

@@ -51,8 +51,7 @@ struct PackedPoses {
   static constexpr int kMostBits = 24;      ///< Of a number.
   static constexpr std::size_t kSpare = 4;  ///< Bytes that may be read beyond the last pose.
 
-  /// Of each pose.
-  std::size_t pose_bytes(int frames) const { return (bytes.size() - kSpare) / frames; }
+  std::size_t pose_bytes = 0;  ///< Of each pose: bytes_for() its bits.
 };
 
 /// Bytes that numbers of so many bits take.
