@@ -36,6 +36,7 @@ set_target_properties(fragmotion_math_objects PROPERTIES C_VISIBILITY_PRESET hid
 add_library(fragmotion_math INTERFACE)
 # As objects, since a linker may search the system's archives before ours: zig's for Windows does.
 target_link_libraries(fragmotion_math INTERFACE $<TARGET_OBJECTS:fragmotion_math_objects>)
+add_compile_definitions(FRAGMOTION_SAME_MATH)
 
 # A compiler works out what it knows of these by a mathematics of its own.
 list(TRANSFORM functions PREPEND -fno-builtin- OUTPUT_VARIABLE no_builtins)

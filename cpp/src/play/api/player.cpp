@@ -184,7 +184,7 @@ Control FragmotionPlayer::control(const FragmotionInput& input, double seconds) 
 
 // Who stands may be asked to walk.
 void FragmotionPlayer::keep_clear(Control& control, double seconds) {
-  const Matrix2 turn = turn_by(frame().heading).toRotationMatrix();
+  const Matrix2 turn = turn_by(frame().heading).matrix();
   const Vector2 wanted = turn * Vector2{control.x, control.y};
   const double most = std::max(wanted.norm(), space().walk());
   const Vector2 clear = turn.transpose() * way_round.choose(*clearance, wanted, most, seconds);

@@ -6,7 +6,7 @@
 namespace fragmotion {
 
 /// What turns the ground plane by a heading.
-inline Eigen::Rotation2Dd turn_by(double heading) { return Eigen::Rotation2Dd(heading); }
+inline PlaneTurn turn_by(double heading) { return PlaneTurn(heading); }
 
 /// How the world lies that a player plays in to the world that the game sees: turned about the up axis, and moved.
 struct Shift {

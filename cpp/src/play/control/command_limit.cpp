@@ -11,7 +11,9 @@ void CommandLimit::reset(double heading, const Vector2& velocity) {
   heading_ = heading;
 }
 
-Vector2 CommandLimit::velocity(double heading) const { return Eigen::Rotation2Dd(heading_ - heading) * velocity_; }
+Vector2 CommandLimit::velocity(double heading) const {
+  return heading_ == heading ? velocity_ : PlaneTurn(heading_ - heading) * velocity_;
+}
 
 Control CommandLimit::round_turn(const Control& control) const {
   const double push = control.speed() * std::min(std::abs(control.turn), 1.0) * turn_rate_;

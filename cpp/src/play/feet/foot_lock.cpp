@@ -26,7 +26,7 @@ double clear_at(double speed) { return kSkateHeight * std::min(1.0, speed / kSta
 }  // namespace
 
 Vector2 StepEdit::moved(const Vector2& from_hips, double heading) const {
-  const Matrix2 turn = Eigen::Rotation2Dd(heading).toRotationMatrix();
+  const Matrix2 turn = PlaneTurn(heading).matrix();
   return turn * stride * turn.transpose() * from_hips + turn * shift;
 }
 
@@ -188,7 +188,7 @@ void FootLock::apply(WorldPose& pose, const Contacts& contacts, const Frames& fr
   filters.set(seconds, constants);
   const Skeleton& skeleton = kinematics.skeleton();
   kinematics.world_below(pose.root, pose.rotations.data(), bones, posed.heads.data(), posed.rotations.data());
-  const Matrix2 heading = Eigen::Rotation2Dd(pose.heading).toRotationMatrix(),
+  const Matrix2 heading = PlaneTurn(pose.heading).matrix(),
                 longer = heading * edit.stride * heading.transpose();
   const Vector2 shift = heading * edit.shift;
   std::array<Vector3, kMostLegs> ankles;

@@ -136,7 +136,8 @@ void BodyTips::pose(const Vector3& root, const double* rotations) {
 }
 
 void BodyTips::write(const CharacterFrame& frame, float* rows, int stride, int offset) const {
-  const double c = scale_ * std::cos(frame.heading), s = scale_ * std::sin(frame.heading);
+  const PlaneTurn turn(frame.heading);
+  const double c = scale_ * turn.cosine, s = scale_ * turn.sine;
   float *to_x = rows + offset, *to_y = to_x + stride, *to_z = to_y + stride;
   for (int i = 0; i < points(); ++i) {
     const Vector3& tip = tips_[i];

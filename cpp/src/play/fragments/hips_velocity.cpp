@@ -15,7 +15,7 @@ constexpr int kMoments = 8;
 Travel travel_between(const PackedClip& clip, double begin, double end) {
   const CharacterFrame from = frame_at(clip, begin), to = frame_at(clip, end);
   const double angle = wrapped(to.heading - from.heading), rate = clip.rate / (end - begin);
-  return {Eigen::Rotation2Dd(-from.heading - angle / 2) * (to.position - from.position) * rate, angle * rate};
+  return {PlaneTurn(-from.heading - angle / 2) * (to.position - from.position) * rate, angle * rate};
 }
 
 Vector2 velocity_between(const PackedClip& clip, double begin, double end) {

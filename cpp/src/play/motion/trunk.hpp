@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cmath>
-
 #include "skeleton/skeleton.hpp"
 
 namespace fragmotion {
@@ -26,10 +24,8 @@ int spine_bones(const Skeleton& skeleton, const Trunk& trunk);
 Quaternion world_turn(const Skeleton& skeleton, int bone, const double* rotations);
 
 /// Half of an angle, rad, as the quaternion of a turn by it holds it.
-struct HalfAngle {
-  double cosine, sine;
-
-  explicit HalfAngle(double angle) : cosine(std::cos(angle / 2)), sine(std::sin(angle / 2)) {}
+struct HalfAngle : PlaneTurn {
+  explicit HalfAngle(double angle) : PlaneTurn(angle / 2) {}
 };
 
 /// Turns a bone that is turned in the world like that by an angle about an axis that is given there.

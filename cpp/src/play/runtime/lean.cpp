@@ -22,7 +22,8 @@ void Lean::apply(const Skeleton& skeleton, WorldPose& pose, const Vector2& accel
 // Forward from the hips on, and aside by the spine; the legs stay as they are. What is above is turned first, so that
 // its sines and cosines are those of the others: hips that have not leaned yet see the axis of the spine turned back.
 void Lean::lean_by(const Skeleton& skeleton, const Vector2& lean, double heading, double* rotations) const {
-  const Vector3 left{-std::cos(heading), -std::sin(heading), 0};
+  const PlaneTurn ahead(heading);
+  const Vector3 left{-ahead.cosine, -ahead.sine, 0};
   const HalfAngle hips(lean.y()), spine(lean.x() / spine_bones(skeleton, trunk_));
   const double upright = hips.cosine * hips.cosine - hips.sine * hips.sine;
   const Vector3 forward{upright * left.y(), -upright * left.x(), 2 * hips.sine * hips.cosine};

@@ -49,14 +49,15 @@ Playback::Placed Playback::place(int style, int number, const CharacterFrame& fr
   placed.number = number;
   const CharacterFrame first = frame_at(clip(placed), fragment(placed).first_played());
   placed.heading = frame.heading - first.heading;
-  placed.offset = frame.position - Eigen::Rotation2Dd(placed.heading) * first.position;
+  placed.offset = frame.position - PlaneTurn(placed.heading) * first.position;
   return placed;
 }
 
 // Places hips and heading of a frame of the clip; returns by what all is turned.
 Quaternion Playback::put(const Placed& placed, const RootPose& root, WorldPose& pose) {
   // By half the angle, for the quaternion as well as for the plane.
-  const double w = std::cos(placed.heading / 2), z = std::sin(placed.heading / 2), c = w * w - z * z, s = 2 * w * z;
+  const PlaneTurn half(placed.heading / 2);
+  const double w = half.cosine, z = half.sine, c = w * w - z * z, s = 2 * w * z;
   const Vector3& place = root.place;
   pose.root = {placed.offset.x() + c * place.x() - s * place.y(), placed.offset.y() + s * place.x() + c * place.y(),
                place.z()};
@@ -143,7 +144,7 @@ Vector2 Playback::begin_stitch(const Placed& old) {
   sample(later, fresh_later);
   const Vector2 faster = inertialization_.begin(old_now, old_later, fresh, fresh_later, kGameStep, stitch_);
   look_.begin(old_now, old_later, fresh, fresh_later, kGameStep, stitch_, turning_, inertialization_);
-  return Eigen::Rotation2Dd(-frame_.heading) * faster;
+  return PlaneTurn(-frame_.heading) * faster;
 }
 
 void Playback::advance(double seconds) {
@@ -165,11 +166,11 @@ void Playback::pass_markers(double after, double until) {
 
 void Playback::move(const Vector2& velocity, double turn_rate, double seconds) {
   turning_ = turn_rate;
-  const Vector2 root = frame_.position, way = seconds * (Eigen::Rotation2Dd(frame_.heading) * velocity);
-  const Eigen::Matrix2d turned = Eigen::Rotation2Dd(seconds * turn_rate).toRotationMatrix();
+  const Vector2 root = frame_.position, way = seconds * (PlaneTurn(frame_.heading) * velocity);
+  const PlaneTurn turn(seconds * turn_rate);
   for (Placed* placed : {&now_, &before_}) {
     placed->heading += seconds * turn_rate;
-    placed->offset = root + way + turned * (placed->offset - root);
+    placed->offset = root + way + turn * (placed->offset - root);
   }
 }
 
@@ -217,8 +218,9 @@ bool Playback::has_landed() const {
 
 std::size_t Playback::frame_of_clip(double seconds) const {
   const PackedClip& source = clip(now_);
-  const long at = std::lround(fragment().first_played() + seconds * source.rate);
-  return static_cast<std::size_t>(std::clamp(at, 0L, static_cast<long>(source.frames) - 1));
+  const double at = std::min(source.frames - 1.0, std::max(0.0, fragment().first_played() + seconds * source.rate));
+  const auto before = static_cast<std::size_t>(at);
+  return before + (at - static_cast<double>(before) < 0.5 ? 0 : 1);
 }
 
 std::array<bool, 2> Playback::standing_feet(double seconds) const {
@@ -275,7 +277,7 @@ Vector2 Playback::velocity() const {
   auto& [before, now, unused, unused_too] = workspace_->poses;
   sample(now_.seconds - kGameStep, before);
   sample(now_.seconds, now);
-  return Eigen::Rotation2Dd(-frame_.heading) * (now.root - before.root).head<2>() / kGameStep;
+  return PlaneTurn(-frame_.heading) * (now.root - before.root).head<2>() / kGameStep;
 }
 
 }  // namespace fragmotion

@@ -36,13 +36,17 @@ double tan(double x) {
   return __tan(rest[0], rest[1], quarters & 1);
 }
 
-/* What compilers call where they see a sine and a cosine of one angle. */
-void sincos(double x, double* sine, double* cosine) {
+/* To the bit as sin() and cos(). */
+void fragmotion_sincos(double x, double* sine, double* cosine);
+void fragmotion_sincos(double x, double* sine, double* cosine) {
   double rest[2];
   const int quarters = reduce(x, rest);
   *sine = sine_after(quarters, rest);
   *cosine = sine_after(quarters + 1, rest);
 }
+
+/* What compilers call where they see a sine and a cosine of one angle. */
+void sincos(double x, double* sine, double* cosine) { fragmotion_sincos(x, sine, cosine); }
 
 #ifdef __APPLE__
 struct sine_and_cosine {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/rounding.hpp"
+#include "base/vectorised.hpp"
 
 namespace fragmotion {
 
@@ -48,12 +49,13 @@ inline void attach(const Vector3& offset, const double* wxyz, Vector3& head, Qua
 }  // namespace
 
 Vector3 CharacterFrame::to_world(const Vector3& local) const {
-  const double c = std::cos(heading), s = std::sin(heading);
+  const auto [c, s] = PlaneTurn(heading);
   return {position.x() + c * local.x() - s * local.y(), position.y() + s * local.x() + c * local.y(), local.z()};
 }
 
 Vector3 CharacterFrame::to_local(const Vector3& world) const {
-  const double c = std::cos(heading), s = std::sin(heading), x = world.x() - position.x(), y = world.y() - position.y();
+  const auto [c, s] = PlaneTurn(heading);
+  const double x = world.x() - position.x(), y = world.y() - position.y();
   return {c * x + s * y, c * y - s * x, world.z()};
 }
 
@@ -111,7 +113,7 @@ void Kinematics::world(const Vector3& root_position, const double* rotations, co
   if (!parts_->carried.empty()) carry(root_position, orientations[skeleton().roles.hips], heads, orientations);
 }
 
-void Kinematics::world_below(const Vector3& root_position, const double* rotations, const std::vector<int>& bones,
+FRAGMOTION_VECTORISED void Kinematics::world_below(const Vector3& root_position, const double* rotations, const std::vector<int>& bones,
                              Vector3* heads, Quaternion* orientations) const {
   const Skeleton& skeleton = parts_->skeleton;
   const int hips = skeleton.roles.hips;

@@ -16,7 +16,10 @@ struct CharacterFrame {
 
   Vector3 to_world(const Vector3& local) const;
   Vector3 to_local(const Vector3& world) const;
-  Quaternion rotation() const { return Quaternion{Eigen::AngleAxisd(heading, Vector3::UnitZ())}; }
+  Quaternion rotation() const {
+    const PlaneTurn half(heading / 2);
+    return {half.cosine, 0, 0, half.sine};
+  }
 };
 
 /// Forward kinematics of one skeleton. Keeps what does not change from pose to pose; copies share it.
