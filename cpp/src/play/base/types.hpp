@@ -48,6 +48,19 @@ typename A::Scalar dot(const Eigen::MatrixBase<A>& a, const Eigen::MatrixBase<B>
   return a.cwiseProduct(b).sum();
 }
 
+/// A rotation after another: Eigen's own, likewise.
+inline Quaternion product(const Quaternion& a, const Quaternion& b) {
+  const double w = a.w(), x = a.x(), y = a.y(), z = a.z(), p = b.w(), q = b.x(), r = b.y(), s = b.z();
+  return {w * p - x * q - y * r - z * s, w * q + x * p + y * s - z * r, w * r + y * p + z * q - x * s,
+          w * s + z * p + x * r - y * q};
+}
+
+/// A rotation of unit length but for roundings, without them: the first step to 1 / its length does.
+inline Quaternion rounded_off(const Quaternion& q) {
+  const double scale = 1.5 - 0.5 * (q.w() * q.w() + q.x() * q.x() + q.y() * q.y() + q.z() * q.z());
+  return {scale * q.w(), scale * q.x(), scale * q.y(), scale * q.z()};
+}
+
 /// A vector turned by a rotation: Eigen's own, number by number, which compilers inline.
 inline Vector3 turned(const Quaternion& by, const Vector3& v) {
   const double w = by.w(), x = by.x(), y = by.y(), z = by.z();

@@ -11,6 +11,11 @@ void CommandLimit::reset(double heading, const Vector2& velocity) {
   heading_ = heading;
 }
 
+void CommandLimit::face(double heading) {
+  velocity_ = velocity(heading);
+  heading_ = heading;
+}
+
 Vector2 CommandLimit::velocity(double heading) const {
   return heading_ == heading ? velocity_ : PlaneTurn(heading_ - heading) * velocity_;
 }

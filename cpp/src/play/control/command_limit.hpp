@@ -20,6 +20,8 @@ class CommandLimit {
 
   /// Goes at `velocity`, m/s in the character frame, facing `heading`.
   void reset(double heading, const Vector2& velocity = Vector2::Zero());
+  /// Sees itself from now on from a body that faces `heading`, which what follows asks for at less cost.
+  void face(double heading);
   /// At which it goes, m/s in the character frame of a body that faces `heading`.
   Vector2 velocity(double heading) const;
   /// What the control becomes `seconds` from the last advance(), of a body that faces `heading` then.

@@ -127,7 +127,7 @@ void FootLock::raise_heel(int side, const Vector3& ball, double longest, Vector3
   foot.raised += body_->filters.settles * (std::min(lacks, kHighestHeel) - foot.raised);
   if (foot.raised < kFloatRounding) return;
   const Quaternion turn{Eigen::AngleAxisd(foot.raised, heel_axis(from_ball))};
-  ankle = ball + turn * from_ball;
+  ankle = ball + turned(turn, from_ball);
   turn_foot(body_->kinematics.skeleton(), leg, turn, Quaternion::Identity(), posed, rotations);
 }
 

@@ -19,20 +19,22 @@ double too_high(double length, const Vector3& hip, const Vector3& ankle) {
 Vector3 heel_axis(const Vector3& from_ball) { return from_ball.cross(Vector3::UnitZ()).normalized(); }
 
 double rise_to_reach(const Vector3& hip, const Vector3& from_ball, double length) {
-  const double along = -dot(hip, from_ball), across = -dot(hip, heel_axis(from_ball).cross(from_ball)),
+  const double along = -dot(hip, from_ball),
                wanted = (length * length - hip.squaredNorm() - from_ball.squaredNorm()) / 2;
-  if (along <= wanted || across >= 0) return 0;
+  if (along <= wanted) return 0;
+  const double across = -dot(hip, heel_axis(from_ball).cross(from_ball));
+  if (across >= 0) return 0;
   return std::atan2(across, along) + std::acos(std::max(-1.0, wanted / std::hypot(along, across)));
 }
 
 void turn_foot(const Skeleton& skeleton, const Leg& leg, const Quaternion& foot, const Quaternion& toe,
                PosedBones& posed, double* rotations) {
   if (leg.toe >= 0) {
-    const Quaternion above = foot * posed.rotations[skeleton.parents[leg.toe]];
-    store_quaternion((above.conjugate() * (toe * posed.rotations[leg.toe])).normalized(),
+    const Quaternion above = product(foot, posed.rotations[skeleton.parents[leg.toe]]);
+    store_quaternion(rounded_off(product(above.conjugate(), product(toe, posed.rotations[leg.toe]))),
                      rotations + std::ptrdiff_t{4} * leg.toe);
   }
-  turn_to(leg, foot * posed.rotations[leg.foot], posed);
+  turn_to(leg, product(foot, posed.rotations[leg.foot]), posed);
 }
 
 void lower_hips(double by, Vector3& root, PosedBones& posed) {

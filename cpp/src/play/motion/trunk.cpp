@@ -29,7 +29,7 @@ Quaternion world_turn(const Skeleton& skeleton, int bone, const double* rotation
   Quaternion world = load_quaternion(&rotations[std::size_t{4} * bone]);
   for (int b = bone; b != skeleton.roles.hips;) {
     b = skeleton.parents[b];
-    world = load_quaternion(&rotations[std::size_t{4} * b]) * world;
+    world = product(load_quaternion(&rotations[std::size_t{4} * b]), world);
   }
   return world;
 }

@@ -5,8 +5,22 @@
 
 #include "base/filtered.hpp"
 #include "base/rounding.hpp"
+#include "base/vectorised.hpp"
 
 namespace fragmotion {
+namespace {
+
+Quaternion about(const Vector3& axis, const HalfAngle& half) {
+  return {half.cosine, half.sine * axis.x(), half.sine * axis.y(), half.sine * axis.z()};
+}
+
+// Turns what hangs on a bone that is turned like that by so much in the world.
+[[gnu::always_inline]] inline void turn_on(const Quaternion& above, const Quaternion& turn, double* local) {
+  const Vector3 seen = turned(above.conjugate(), turn.vec());
+  store_quaternion(product({turn.w(), seen.x(), seen.y(), seen.z()}, load_quaternion(local)), local);
+}
+
+}  // namespace
 
 void Lean::apply(const Skeleton& skeleton, WorldPose& pose, const Vector2& acceleration, double seconds) {
   const Vector2 wanted = clamp_length(scale_ * acceleration, kHard);
@@ -16,43 +30,47 @@ void Lean::apply(const Skeleton& skeleton, WorldPose& pose, const Vector2& accel
   const double strength = acceleration_.norm();
   if (strength < kRounding || trunk_.base < 0) return;
   const Vector2 lean = constants_.share * std::atan(strength / kGravity) / strength * acceleration_;
-  lean_by(skeleton, lean, pose.heading, pose.rotations.data());
+  lean_by(skeleton, lean, PlaneTurn(pose.heading), pose.rotations.data());
 }
 
 // Forward from the hips on, and aside by the spine; the legs stay as they are. What is above is turned first, so that
 // its sines and cosines are those of the others: hips that have not leaned yet see the axis of the spine turned back.
-void Lean::lean_by(const Skeleton& skeleton, const Vector2& lean, double heading, double* rotations) const {
-  const PlaneTurn ahead(heading);
-  const Vector3 left{-ahead.cosine, -ahead.sine, 0};
+FRAGMOTION_VECTORISED void Lean::lean_by(const Skeleton& skeleton, const Vector2& lean, const PlaneTurn& facing,
+                                         double* rotations) const {
   const HalfAngle hips(lean.y()), spine(lean.x() / spine_bones(skeleton, trunk_));
-  const double upright = hips.cosine * hips.cosine - hips.sine * hips.sine;
-  const Vector3 forward{upright * left.y(), -upright * left.x(), 2 * hips.sine * hips.cosine};
+  const double upright = hips.cosine * hips.cosine - hips.sine * hips.sine, tilts = 2 * hips.sine * hips.cosine;
+  const Vector3 left{-facing.cosine, -facing.sine, 0}, forward{-upright * facing.sine, upright * facing.cosine, tilts};
+  const Quaternion aside = about(forward, spine);
   if (trunk_.head >= 0) {
-    double* head = &rotations[std::size_t{4} * trunk_.head];
-    const Quaternion neck = bend(skeleton, skeleton.parents[trunk_.head], false, forward, spine, rotations);
-    turn_bone(neck * load_quaternion(head), left, HalfAngle(-kHeadBack * lean.y()), head);
-    turn_bone(neck * load_quaternion(head), forward, HalfAngle(-kHeadBack * lean.x()), head);
+    const Quaternion neck = bend(skeleton, skeleton.parents[trunk_.head], false, aside, rotations);
+    const Quaternion back =
+        product(about(forward, HalfAngle(-kHeadBack * lean.x())), about(left, HalfAngle(-kHeadBack * lean.y())));
+    turn_on(neck, back, &rotations[std::size_t{4} * trunk_.head]);
   } else {
-    bend(skeleton, trunk_.chest, true, forward, spine, rotations);
+    bend(skeleton, trunk_.chest, true, aside, rotations);
   }
+  const Quaternion whole = about(left, hips);
   for (const int thigh : thighs_) {
-    if (thigh >= 0) turn_bone(skeleton, thigh, -left, hips, rotations);
+    if (thigh < 0) continue;
+    const Quaternion above = world_turn(skeleton, skeleton.parents[thigh], rotations);
+    turn_on(above, whole.conjugate(), &rotations[std::size_t{4} * thigh]);
   }
-  turn_bone(skeleton, skeleton.roles.hips, left, hips, rotations);
+  double* root = &rotations[std::size_t{4} * skeleton.roles.hips];
+  store_quaternion(product(whole, load_quaternion(root)), root);
 }
 
-// Bends the spine from its base up to a bone, or, where that is not of it yet, to the chest below. Returns how the bone
-// was turned in the world.
-Quaternion Lean::bend(const Skeleton& skeleton, int bone, bool in_spine, const Vector3& axis, const HalfAngle& half,
+// Turns the bones of the spine from its base up to a bone, or, where that is not of it yet, to the chest below. Returns
+// how the bone was turned in the world.
+Quaternion Lean::bend(const Skeleton& skeleton, int bone, bool in_spine, const Quaternion& turn,
                       double* rotations) const {
   double* local = &rotations[std::size_t{4} * bone];
   const Quaternion own = load_quaternion(local);
   if (bone == skeleton.roles.hips) return own;
   in_spine = in_spine || bone == trunk_.chest;
   const bool goes_on = in_spine && bone != trunk_.base;
-  const Quaternion world = bend(skeleton, skeleton.parents[bone], goes_on, axis, half, rotations) * own;
-  if (in_spine) turn_bone(world, axis, half, local);
-  return world;
+  const Quaternion above = bend(skeleton, skeleton.parents[bone], goes_on, turn, rotations);
+  if (in_spine) turn_on(above, turn, local);
+  return product(above, own);
 }
 
 }  // namespace fragmotion

@@ -34,9 +34,8 @@ class Lean {
  private:
   friend struct PlayerState;
 
-  void lean_by(const Skeleton& skeleton, const Vector2& lean, double heading, double* rotations) const;
-  Quaternion bend(const Skeleton& skeleton, int bone, bool in_spine, const Vector3& axis, const HalfAngle& half,
-                  double* rotations) const;
+  void lean_by(const Skeleton& skeleton, const Vector2& lean, const PlaneTurn& facing, double* rotations) const;
+  Quaternion bend(const Skeleton& skeleton, int bone, bool in_spine, const Quaternion& turn, double* rotations) const;
 
   LeanConstants constants_;
   Trunk trunk_;

@@ -24,10 +24,10 @@ Quaternion LookStitch::turn_below(const WorldPose& pose) const {
 
 // Writes how neck and head are turned, which is seen after a rotation, as the pose of a body that is these bones.
 void LookStitch::see(const WorldPose& pose, const Quaternion& after, WorldPose& look) const {
-  Quaternion seen = after * turn_below(pose);
+  Quaternion seen = product(after, turn_below(pose));
   double* out = look.rotations.data();
   for (const int bone : workspace_->look) {
-    seen = seen * load_quaternion(&pose.rotations[std::size_t{4} * bone]);
+    seen = product(seen, load_quaternion(&pose.rotations[std::size_t{4} * bone]));
     store_quaternion(seen, out);
     out += 4;
   }
@@ -65,11 +65,11 @@ void LookStitch::apply(double time, const Inertialization& body, WorldPose& pose
   see(pose, to_frame, look);
   body.apply(time, pose);
   const Fade fade = body.fade(damping_, time);
-  Quaternion from = to_frame * turn_below(pose);
+  Quaternion from = product(to_frame, turn_below(pose));
   const double* seen = look.rotations.data();
   for (const int bone : workspace_->look) {
-    const Quaternion turned = body.left(bone, fade) * load_quaternion(seen);
-    store_quaternion((from.conjugate() * turned).normalized(), &pose.rotations[std::size_t{4} * bone]);
+    const Quaternion turned = product(body.left(bone, fade), load_quaternion(seen));
+    store_quaternion(rounded_off(product(from.conjugate(), turned)), &pose.rotations[std::size_t{4} * bone]);
     from = turned;
     seen += 4;
   }

@@ -185,6 +185,7 @@ double Player::advance(const Control& control, double most) {
 }
 
 double Player::advance_by_policy(const Control& control, double most) {
+  governor_.face(frame().heading);
   const Control soon = governor_.command(control, frame().heading, most + kSoon);
   const bool changes = !(soon.x == control.x && soon.y == control.y) && !playback_.is_in_the_air();
   if (director_.is_due(soon, changes, playback_, selector_)) go_on(soon);

@@ -33,6 +33,8 @@ class RootGovernor {
     begins_ = true;
   }
 
+  /// The body faces `heading`.
+  void face(double heading) { limit_.face(heading); }
   /// What a body that faces `heading` can do of a control in so many seconds from now.
   Control command(const Control& control, double heading, double seconds) const {
     return limit_.after(control, heading, seconds);

@@ -6,6 +6,7 @@
 
 #include "base/rounding.hpp"
 #include "base/turn_between.hpp"
+#include "base/vectorised.hpp"
 
 namespace fragmotion {
 namespace {
@@ -107,22 +108,22 @@ class Knee {
 
 Knee knee_of(const Leg& leg, const PosedBones& posed) {
   return {posed.heads[leg.knee] - posed.heads[leg.thigh], ankle_of(leg, posed) - posed.heads[leg.knee],
-          posed.rotations[leg.thigh] * leg.hinge};
+          turned(posed.rotations[leg.thigh], leg.hinge)};
 }
 
 // Turns the lower leg by `bend` and swings the leg towards `ankle`; the foot keeps its rotation.
-void bend(const Skeleton& skeleton, const Leg& leg, const PosedBones& posed, const Vector3& to, const Quaternion& bend,
-          double* rotations) {
+FRAGMOTION_VECTORISED void bend(const Skeleton& skeleton, const Leg& leg, const PosedBones& posed, const Vector3& to,
+                                const Quaternion& bend, double* rotations) {
   const Vector3 upper = posed.heads[leg.knee] - posed.heads[leg.thigh],
                 lower = ankle_of(leg, posed) - posed.heads[leg.knee];
-  const Quaternion thigh = turn_between(upper + bend * lower, to - posed.heads[leg.thigh]);
+  const Quaternion thigh = turn_between(upper + turned(bend, lower), to - posed.heads[leg.thigh]);
   const auto store = [&](int bone, const Quaternion& parent, const Quaternion& world) {
-    store_quaternion((parent.conjugate() * world).normalized(), rotations + std::ptrdiff_t{4} * bone);
+    store_quaternion(rounded_off(product(parent.conjugate(), world)), rotations + std::ptrdiff_t{4} * bone);
   };
   const auto above = [&](int bone) { return posed.rotations[skeleton.parents[bone]]; };
-  store(leg.thigh, above(leg.thigh), thigh * posed.rotations[leg.thigh]);
-  store(leg.knee, above(leg.knee), bend * posed.rotations[leg.knee]);
-  if (leg.has_foot()) store(leg.foot, thigh * (bend * above(leg.foot)), posed.rotations[leg.foot]);
+  store(leg.thigh, above(leg.thigh), product(thigh, posed.rotations[leg.thigh]));
+  store(leg.knee, above(leg.knee), product(bend, posed.rotations[leg.knee]));
+  if (leg.has_foot()) store(leg.foot, product(thigh, product(bend, above(leg.foot))), posed.rotations[leg.foot]);
 }
 
 // The leg from a thigh to a foot that has a knee between them; none where the thigh carries the body or both legs. What
@@ -239,7 +240,7 @@ Legs resting_legs(const Skeleton& skeleton) {
 
 Vector3 ball(const Skeleton& skeleton, int foot, int toe, const PosedBones& posed) {
   if (toe >= 0) return posed.heads[toe];
-  return posed.heads[foot] + posed.rotations[foot] * skeleton.tips[foot];
+  return posed.heads[foot] + turned(posed.rotations[foot], skeleton.tips[foot]);
 }
 
 Vector3 ankle_of(const Leg& leg, const PosedBones& posed) {
@@ -264,7 +265,8 @@ double shortest(const Leg& leg, const PosedBones& posed) {
   return std::min(knee_of(leg, posed).folded_up(), longest(leg, posed));  // a short lower leg hardly folds the leg up
 }
 
-void reach(const Skeleton& skeleton, const Leg& leg, const PosedBones& posed, const Vector3& ankle, double* rotations) {
+FRAGMOTION_VECTORISED void reach(const Skeleton& skeleton, const Leg& leg, const PosedBones& posed, const Vector3& ankle,
+                                 double* rotations) {
   const Knee knee = knee_of(leg, posed);
   bend(skeleton, leg, posed, ankle, knee.bent_by(knee.ends((ankle - posed.heads[leg.thigh]).norm())), rotations);
 }
