@@ -188,8 +188,7 @@ void FootLock::apply(WorldPose& pose, const Contacts& contacts, const Frames& fr
   filters.set(seconds, constants);
   const Skeleton& skeleton = kinematics.skeleton();
   kinematics.world_below(pose.root, pose.rotations.data(), bones, posed.heads.data(), posed.rotations.data());
-  const Matrix2 heading = PlaneTurn(pose.heading).matrix(),
-                longer = heading * edit.stride * heading.transpose();
+  const Matrix2 heading = PlaneTurn(pose.heading).matrix(), longer = heading * edit.stride * heading.transpose();
   const Vector2 shift = heading * edit.shift;
   std::array<Vector3, kMostLegs> ankles;
   double strained = 0;
@@ -222,8 +221,9 @@ void FootLock::apply(WorldPose& pose, const Contacts& contacts, const Frames& fr
   }
   fresh_ = false;
   sunk_ += (strained - sunk_) * filters.sinks;
-  lower_hips(sunk_, pose.root, posed);
+  pose.root.z() -= sunk_;
   for (int side = 0; side < count; ++side) {
+    ankles[side].z() += sunk_;  // seen from hips that have not sunk
     reach(skeleton, legs[side], posed, ankles[side], pose.rotations.data());
   }
 }

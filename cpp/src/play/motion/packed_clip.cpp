@@ -30,8 +30,7 @@ struct PackedBetween {
   const std::uint8_t *pose, *next;
   double weight;
 
-  PackedBetween(const PackedClip& clip, double at)
-      : frame(std::clamp(static_cast<int>(at), 0, clip.frames - 1)) {
+  PackedBetween(const PackedClip& clip, double at) : frame(std::clamp(static_cast<int>(at), 0, clip.frames - 1)) {
     const std::size_t bytes = clip.poses->pose_bytes;
     pose = &clip.poses->bytes[bytes * frame];
     next = pose + (frame + 1 < clip.frames ? bytes : 0);

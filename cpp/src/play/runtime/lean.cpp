@@ -10,7 +10,7 @@
 namespace fragmotion {
 namespace {
 
-Quaternion about(const Vector3& axis, const HalfAngle& half) {
+Quaternion about(const Vector3& axis, const PlaneTurn& half) {
   return {half.cosine, half.sine * axis.x(), half.sine * axis.y(), half.sine * axis.z()};
 }
 
@@ -37,26 +37,27 @@ void Lean::apply(const Skeleton& skeleton, WorldPose& pose, const Vector2& accel
 // its sines and cosines are those of the others: hips that have not leaned yet see the axis of the spine turned back.
 FRAGMOTION_VECTORISED void Lean::lean_by(const Skeleton& skeleton, const Vector2& lean, const PlaneTurn& facing,
                                          double* rotations) const {
-  const HalfAngle hips(lean.y()), spine(lean.x() / spine_bones(skeleton, trunk_));
-  const double upright = hips.cosine * hips.cosine - hips.sine * hips.sine, tilts = 2 * hips.sine * hips.cosine;
-  const Vector3 left{-facing.cosine, -facing.sine, 0}, forward{-upright * facing.sine, upright * facing.cosine, tilts};
+  static_assert(kHeadBack == 0.5, "hips turn by twice as much as the head turns back");
+  const HalfAngle back(kHeadBack * lean.y()), spine(lean.x() / spine_bones(skeleton, trunk_));
+  const PlaneTurn hips = back.twice(), whole = hips.twice();
+  const Vector3 left{-facing.cosine, -facing.sine, 0},
+      forward{-whole.cosine * facing.sine, whole.cosine * facing.cosine, whole.sine};
   const Quaternion aside = about(forward, spine);
   if (trunk_.head >= 0) {
     const Quaternion neck = bend(skeleton, skeleton.parents[trunk_.head], false, aside, rotations);
-    const Quaternion back =
-        product(about(forward, HalfAngle(-kHeadBack * lean.x())), about(left, HalfAngle(-kHeadBack * lean.y())));
-    turn_on(neck, back, &rotations[std::size_t{4} * trunk_.head]);
+    const Quaternion aside_back = about(forward, HalfAngle(-kHeadBack * lean.x()));
+    turn_on(neck, product(aside_back, about(left, back).conjugate()), &rotations[std::size_t{4} * trunk_.head]);
   } else {
     bend(skeleton, trunk_.chest, true, aside, rotations);
   }
-  const Quaternion whole = about(left, hips);
+  const Quaternion ahead = about(left, hips);
   for (const int thigh : thighs_) {
     if (thigh < 0) continue;
     const Quaternion above = world_turn(skeleton, skeleton.parents[thigh], rotations);
-    turn_on(above, whole.conjugate(), &rotations[std::size_t{4} * thigh]);
+    turn_on(above, ahead.conjugate(), &rotations[std::size_t{4} * thigh]);
   }
   double* root = &rotations[std::size_t{4} * skeleton.roles.hips];
-  store_quaternion(product(whole, load_quaternion(root)), root);
+  store_quaternion(product(ahead, load_quaternion(root)), root);
 }
 
 // Turns the bones of the spine from its base up to a bone, or, where that is not of it yet, to the chest below. Returns

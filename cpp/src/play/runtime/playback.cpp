@@ -57,12 +57,12 @@ Playback::Placed Playback::place(int style, int number, const CharacterFrame& fr
 Quaternion Playback::put(const Placed& placed, const RootPose& root, WorldPose& pose) {
   // By half the angle, for the quaternion as well as for the plane.
   const PlaneTurn half(placed.heading / 2);
-  const double w = half.cosine, z = half.sine, c = w * w - z * z, s = 2 * w * z;
+  const auto [c, s] = half.twice();
   const Vector3& place = root.place;
   pose.root = {placed.offset.x() + c * place.x() - s * place.y(), placed.offset.y() + s * place.x() + c * place.y(),
                place.z()};
   pose.heading = placed.heading + root.heading;
-  return {w, 0, 0, z};
+  return {half.cosine, 0, 0, half.sine};
 }
 
 void Playback::sample(const Placed& placed, WorldPose& pose) const {

@@ -58,10 +58,10 @@ struct Workspace {
 
   // Of the FragmentSelector's: rows as those of Character::entry_poses.
   std::array<BodyTips, 3> tips;
-  std::vector<float> onward;                    ///< Tips of what is shown, and of how it would go on.
-  std::array<Candidates, 2> candidates;         ///< Of one class, or of the two that are compared.
-  std::vector<double> entering;                 ///< Room for TransitionCost::of_entering().
-  std::vector<std::pair<float, int>> drawn;     ///< Costs and fragments of those that one is drawn of.
+  std::vector<float> onward;                 ///< Tips of what is shown, and of how it would go on.
+  std::array<Candidates, 2> candidates;      ///< Of one class, or of the two that are compared.
+  std::vector<double> entering;              ///< Room for TransitionCost::of_entering().
+  std::vector<std::pair<float, int>> drawn;  ///< Costs and fragments of those that one is drawn of.
 
   UnpackedPoses unpacked;          ///< Of all that plays.
   WorldPose shown;                 ///< By the player that stepped last.

@@ -113,8 +113,9 @@ void Kinematics::world(const Vector3& root_position, const double* rotations, co
   if (!parts_->carried.empty()) carry(root_position, orientations[skeleton().roles.hips], heads, orientations);
 }
 
-FRAGMOTION_VECTORISED void Kinematics::world_below(const Vector3& root_position, const double* rotations, const std::vector<int>& bones,
-                             Vector3* heads, Quaternion* orientations) const {
+FRAGMOTION_VECTORISED void Kinematics::world_below(const Vector3& root_position, const double* rotations,
+                                                   const std::vector<int>& bones, Vector3* heads,
+                                                   Quaternion* orientations) const {
   const Skeleton& skeleton = parts_->skeleton;
   const int hips = skeleton.roles.hips;
   Vector3 head = heads[hips] = root_position;

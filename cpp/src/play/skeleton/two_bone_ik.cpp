@@ -265,8 +265,8 @@ double shortest(const Leg& leg, const PosedBones& posed) {
   return std::min(knee_of(leg, posed).folded_up(), longest(leg, posed));  // a short lower leg hardly folds the leg up
 }
 
-FRAGMOTION_VECTORISED void reach(const Skeleton& skeleton, const Leg& leg, const PosedBones& posed, const Vector3& ankle,
-                                 double* rotations) {
+FRAGMOTION_VECTORISED void reach(const Skeleton& skeleton, const Leg& leg, const PosedBones& posed,
+                                 const Vector3& ankle, double* rotations) {
   const Knee knee = knee_of(leg, posed);
   bend(skeleton, leg, posed, ankle, knee.bent_by(knee.ends((ankle - posed.heads[leg.thigh]).norm())), rotations);
 }
