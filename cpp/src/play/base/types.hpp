@@ -49,7 +49,7 @@ typename A::Scalar dot(const Eigen::MatrixBase<A>& a, const Eigen::MatrixBase<B>
 }
 
 /// A rotation after another: Eigen's own, likewise.
-[[gnu::always_inline]] inline Quaternion product(const Quaternion& a, const Quaternion& b) {
+inline Quaternion product(const Quaternion& a, const Quaternion& b) {
   const double w = a.w(), x = a.x(), y = a.y(), z = a.z(), p = b.w(), q = b.x(), r = b.y(), s = b.z();
   return {w * p - x * q - y * r - z * s, w * q + x * p + y * s - z * r, w * r + y * p + z * q - x * s,
           w * s + z * p + x * r - y * q};

@@ -5,7 +5,6 @@
 
 #include "base/filtered.hpp"
 #include "base/rounding.hpp"
-#include "base/vectorised.hpp"
 
 namespace fragmotion {
 namespace {
@@ -35,8 +34,7 @@ void Lean::apply(const Skeleton& skeleton, WorldPose& pose, const Vector2& accel
 
 // Forward from the hips on, and aside by the spine; the legs stay as they are. What is above is turned first, so that
 // its sines and cosines are those of the others: hips that have not leaned yet see the axis of the spine turned back.
-FRAGMOTION_VECTORISED void Lean::lean_by(const Skeleton& skeleton, const Vector2& lean, const PlaneTurn& facing,
-                                         double* rotations) const {
+void Lean::lean_by(const Skeleton& skeleton, const Vector2& lean, const PlaneTurn& facing, double* rotations) const {
   static_assert(kHeadBack == 0.5, "hips turn by twice as much as the head turns back");
   const HalfAngle back(kHeadBack * lean.y()), spine(lean.x() / spine_bones(skeleton, trunk_));
   const PlaneTurn hips = back.twice(), whole = hips.twice();

@@ -6,7 +6,6 @@
 
 #include "base/rounding.hpp"
 #include "base/turn_between.hpp"
-#include "base/vectorised.hpp"
 
 namespace fragmotion {
 namespace {
@@ -112,8 +111,8 @@ Knee knee_of(const Leg& leg, const PosedBones& posed) {
 }
 
 // Turns the lower leg by `bend` and swings the leg towards `ankle`; the foot keeps its rotation.
-FRAGMOTION_VECTORISED void bend(const Skeleton& skeleton, const Leg& leg, const PosedBones& posed, const Vector3& to,
-                                const Quaternion& bend, double* rotations) {
+void bend(const Skeleton& skeleton, const Leg& leg, const PosedBones& posed, const Vector3& to, const Quaternion& bend,
+          double* rotations) {
   const Vector3 upper = posed.heads[leg.knee] - posed.heads[leg.thigh],
                 lower = ankle_of(leg, posed) - posed.heads[leg.knee];
   const Quaternion thigh = turn_between(upper + turned(bend, lower), to - posed.heads[leg.thigh]);
@@ -265,8 +264,7 @@ double shortest(const Leg& leg, const PosedBones& posed) {
   return std::min(knee_of(leg, posed).folded_up(), longest(leg, posed));  // a short lower leg hardly folds the leg up
 }
 
-FRAGMOTION_VECTORISED void reach(const Skeleton& skeleton, const Leg& leg, const PosedBones& posed,
-                                 const Vector3& ankle, double* rotations) {
+void reach(const Skeleton& skeleton, const Leg& leg, const PosedBones& posed, const Vector3& ankle, double* rotations) {
   const Knee knee = knee_of(leg, posed);
   bend(skeleton, leg, posed, ankle, knee.bent_by(knee.ends((ankle - posed.heads[leg.thigh]).norm())), rotations);
 }
