@@ -106,7 +106,7 @@ FRAGMOTION_VECTORISED void TransitionCost::of_entering(const Entrants& entrants,
   }
 }
 
-FRAGMOTION_VECTORISED int first_of_least(const float* costs, int stride) {
+int first_of_least(const float* costs, int stride) {
   float least[kLanes];
   std::copy_n(costs, kLanes, least);
   for (int first = kLanes; first < stride; first += kLanes) {
