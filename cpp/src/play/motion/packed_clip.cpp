@@ -58,13 +58,13 @@ void require(bool holds) {
   if (!holds) throw std::invalid_argument("its packed poses do not fit together");
 }
 
-void check_rotations(const std::vector<float>& lanes, const PoseGrid& grid) {
+[[gnu::cold]] void check_rotations(const std::vector<float>& lanes, const PoseGrid& grid) {
   require(lanes.size() == std::size_t{4} * kBoneBlock * grid.blocks());
   for (int b = 0; b < kBoneBlock * grid.blocks(); ++b)
     require(std::abs(quaternion_of(lanes, b).norm() - 1) < kFloatRounding);
 }
 
-void check_mirror(const PoseGrid& grid) {
+[[gnu::cold]] void check_mirror(const PoseGrid& grid) {
   const std::vector<int>& counterparts = grid.mirror.counterparts;
   require(static_cast<int>(counterparts.size()) == grid.bones);
   for (int b = 0; b < grid.bones; ++b) {
@@ -74,7 +74,7 @@ void check_mirror(const PoseGrid& grid) {
   check_rotations(grid.mirror.after, grid);
 }
 
-void check_poses(const PackedPoses& poses, int frames, const PoseGrid& grid) {
+[[gnu::cold]] void check_poses(const PackedPoses& poses, int frames, const PoseGrid& grid) {
   const std::size_t turns = std::size_t{3} * kBoneBlock * grid.blocks();
   require(poses.least.size() == turns && poses.bits.size() == PackedPoses::kRootNumbers + turns);
   for (const int bits : poses.bits) require(bits <= PackedPoses::kMostBits);
@@ -218,14 +218,14 @@ std::size_t bytes_for(const std::vector<std::uint8_t>& bits) {
   return std::max<std::size_t>(1, (sum + 7) / 8);
 }
 
-PackedClip mirror_image(const PackedClip& original, std::string name) {
+[[gnu::cold]] PackedClip mirror_image(const PackedClip& original, std::string name) {
   PackedClip image = original;
   image.name = std::move(name);
   image.mirrored = true;
   return image;
 }
 
-int original_of(const std::vector<PackedClip>& clips, std::size_t mirrored) {
+[[gnu::cold]] int original_of(const std::vector<PackedClip>& clips, std::size_t mirrored) {
   if (!clips[mirrored].mirrored) return -1;
   const auto found = std::find_if(clips.begin(), clips.end(), [&](const PackedClip& clip) {
     return !clip.mirrored && clip.poses == clips[mirrored].poses;
@@ -233,7 +233,7 @@ int original_of(const std::vector<PackedClip>& clips, std::size_t mirrored) {
   return found == clips.end() ? -1 : static_cast<int>(found - clips.begin());
 }
 
-Clip unpack(const PackedClip& packed) {
+[[gnu::cold]] Clip unpack(const PackedClip& packed) {
   const int bones = packed.grid->bones;
   Clip clip{packed.name, packed.rate, packed.frames, {}, {}, {}, packed.markers};
   clip.root_positions.resize(std::size_t{3} * clip.frames);
@@ -293,14 +293,14 @@ RootPose root_at(const PackedClip& clip, double at) {
   return {{root[0], root[1], root[2]}, root[3]};
 }
 
-void check(const PoseGrid& grid, const Skeleton& skeleton) {
+[[gnu::cold]] void check(const PoseGrid& grid, const Skeleton& skeleton) {
   require(grid.bones == skeleton.size() && grid.steps.size() == static_cast<std::size_t>(kBoneBlock) * grid.blocks());
   check_rotations(grid.usual, grid);
   for (const float step : grid.steps) require(step > 0 && step <= 1);
   if (!grid.mirror.empty()) check_mirror(grid);
 }
 
-void check(const PackedClip& clip) {
+[[gnu::cold]] void check(const PackedClip& clip) {
   require(clip.rate > 0 && clip.rate <= kHighestRate && clip.frames >= 2);
   require(!clip.mirrored || !clip.grid->mirror.empty());
   check_poses(*clip.poses, clip.frames, *clip.grid);
