@@ -21,6 +21,7 @@
 #include "fragments/packed_pool.hpp"
 #include "fragments/synthesis.hpp"
 #include "fragments/whole_jumps.hpp"
+#include "motion/bladed_stance.hpp"
 #include "motion/cycle.hpp"
 #include "motion/discontinuities.hpp"
 #include "motion/legs.hpp"
@@ -97,6 +98,7 @@ FragmentPool captured_pool(const Kinematics& kinematics, const std::vector<Clip>
   const int takes = static_cast<int>(clips.size()), threads = thread_count(options.threads);
   std::vector<Clip> captured =
       parallel_map(takes, threads, [&](int c) { return in_rounds(kinematics, make_clip(skeleton, clips[c])); });
+  face_ahead(kinematics, captured);
   std::vector<Contacts> contacts =
       parallel_map(takes, threads, [&](int c) { return put_level(kinematics, captured[c]); });
   put_on_one_floor(captured, contacts);

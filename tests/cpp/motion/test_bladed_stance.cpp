@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#include <gtest/gtest.h>
+
+#include "motion/bladed_stance.hpp"
+#include "small_build.hpp"
+
+namespace fragmotion {
+namespace {
+
+constexpr double kBlade = 0.7;  // rad to the left
+
+/// A take that goes straight where `way` (rad from ahead, to the left) says, hips turned by `hips` and the head by
+/// `head` from there; ahead is where the humanoid faces at rest.
+Clip take(double way, double hips, double head, double speed = 1.2) {
+  Gait gait;
+  gait.x = -speed * std::sin(way - hips);
+  gait.y = speed * std::cos(way - hips);
+  gait.heading = kPi + hips;
+  const Skeleton skeleton = humanoid();
+  Clip clip = gait_clip(gait, "take");
+  for (int f = 0; f < clip.frames; ++f) {
+    double* turn = &clip.rotations[4 * (std::size_t(f) * skeleton.size() + skeleton.roles.head)];
+    store_quaternion(CharacterFrame{{0, 0}, head - hips}.rotation(), turn);
+  }
+  return clip;
+}
+
+std::vector<Clip> aiming(double blade = kBlade) {
+  return {take(0, blade, 0, 0), take(0, blade, 0), take(kPi, blade - 0.1, 0), take(kPi / 2, blade + 0.1, 0),
+          take(0, blade, 0, 3)};
+}
+
+double stance(const std::vector<Clip>& takes) { return bladed_stance(Kinematics(humanoid()), takes); }
+
+TEST(BladedStance, IsHowFarTheHipsOfABodyThatAimsAreTurned) {
+  for (const double blade : {kBlade, -kBlade}) EXPECT_NEAR(stance(aiming(blade)), blade, 0.03);
+  EXPECT_NEAR(stance({take(0, kBlade, 0.2)}), kBlade, 0.03);
+}
+
+TEST(BladedStance, IsNoneOfABodyThatFacesAsItsHips) {
+  EXPECT_EQ(stance(gait_takes()), 0);
+  for (const double hips : {0.0, 0.3, kPi / 4, kPi / 2}) {
+    EXPECT_EQ(stance({take(hips, hips, hips), take(hips + kPi / 2, hips, hips)}), 0) << hips;
+    EXPECT_EQ(stance({take(0, hips, hips), take(kPi / 2, hips, hips)}), 0)
+        << "as an actor who faces elsewhere " << hips;
+  }
+}
+
+TEST(BladedStance, IsNoneOfASidestep) {
+  EXPECT_EQ(stance({take(kPi / 2, 0, 0), take(-kPi / 2, 0, 0)}), 0);
+  EXPECT_EQ(stance({take(kPi / 2, kBlade, 0), take(kPi / 2, kBlade, 0.2)}), 0) << "hips turn with the way";
+}
+
+TEST(BladedStance, IsNoneWhereOneTakeThatGoesDoesNotAgree) {
+  Gait curve;
+  curve.turn = 0.8;
+  for (const Clip& other : {take(0, 0, 0), take(0, -kBlade, 0), take(0, kBlade, kBlade), gait_clip(curve)}) {
+    std::vector<Clip> takes = aiming();
+    takes.push_back(other);
+    EXPECT_EQ(stance(takes), 0);
+  }
+}
+
+TEST(BladedStance, BuildLearnsAWalkAheadAsOneAhead) {
+  const std::vector<Clip> takes{take(0, kBlade, 0, 0), take(0, kBlade, 0)};
+  BuildOptions options = few_classes();
+  options.mirror = options.synthesize = false;
+  const Character c = build(humanoid(), takes, some_traces(), options);
+  for (const Fragment& f : c.pool.fragments) {
+    if (f.clip == 0) continue;
+    EXPECT_LT(std::abs(f.evident.x), 0.1) << f.begin;
+  }
+}
+
+}  // namespace
+}  // namespace fragmotion
