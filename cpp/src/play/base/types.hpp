@@ -6,7 +6,7 @@
 #include <cmath>
 
 #ifdef FRAGMOTION_SAME_MATH
-extern "C" void fragmotion_sincos(double angle, double* sine, double* cosine);
+extern "C" void sine_and_cosine(double angle, double* sine, double* cosine);
 #endif
 
 namespace fragmotion {
@@ -75,7 +75,7 @@ struct PlaneTurn {
   // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init): the function writes them
   explicit PlaneTurn(double angle) {
 #ifdef FRAGMOTION_SAME_MATH
-    fragmotion_sincos(angle, &sine, &cosine);
+    sine_and_cosine(angle, &sine, &cosine);
 #else
     cosine = std::cos(angle);
     sine = std::sin(angle);

@@ -37,8 +37,8 @@ double tan(double x) {
 }
 
 /* To the bit as sin() and cos(). */
-void fragmotion_sincos(double x, double* sine, double* cosine);
-void fragmotion_sincos(double x, double* sine, double* cosine) {
+void sine_and_cosine(double x, double* sine, double* cosine);
+void sine_and_cosine(double x, double* sine, double* cosine) {
   double rest[2];
   const int quarters = reduce(x, rest);
   *sine = sine_after(quarters, rest);
@@ -46,16 +46,16 @@ void fragmotion_sincos(double x, double* sine, double* cosine) {
 }
 
 /* What compilers call where they see a sine and a cosine of one angle. */
-void sincos(double x, double* sine, double* cosine) { fragmotion_sincos(x, sine, cosine); }
+void sincos(double x, double* sine, double* cosine) { sine_and_cosine(x, sine, cosine); }
 
 #ifdef __APPLE__
-struct sine_and_cosine {
+struct both_of {
   double sine, cosine;
 };
 
-struct sine_and_cosine __sincos_stret(double x);
-struct sine_and_cosine __sincos_stret(double x) {
-  struct sine_and_cosine both;
+struct both_of __sincos_stret(double x);
+struct both_of __sincos_stret(double x) {
+  struct both_of both;
   sincos(x, &both.sine, &both.cosine);
   return both;
 }
