@@ -17,7 +17,7 @@ from ..rig import posing
 from ..rig.hanging import find_hanging, moves_beside
 from ..rig.held import keep_held
 from ..rig.keys import from_quaternions, to_quaternions
-from ..rig.rigs import bone_path, held_of, is_tied, make_rig
+from ..rig.rigs import FEET, bone_path, held_of, is_tied, make_rig
 from . import left_out
 from .actions import RATE, SCENE_RATE, animated_bones, fitting, rate_of, with_own_bones
 from .curve_points import points_of
@@ -28,7 +28,6 @@ if TYPE_CHECKING:
 
 Curves = dict[tuple[str, int], bpy.types.FCurve]
 
-_FEET = {"left_foot", "right_foot"}
 _FEWEST_FRAMES = 2
 _MOST_FRAMES = 2_000_000  # of an Action: more than four hours at 120 frames a second
 _SAME_FRAME = 0.01  # keys closer than this to a frame are on it
@@ -52,7 +51,7 @@ def rig_with_feet(context: bpy.types.Context, obj: bpy.types.Object) -> Rig:
     armature's own Actions show that it moves with the leg."""
     rig = rig_as_posed(obj)
     own = fitting(obj) if obj.library is None else []
-    if not own or rig.skeleton.role_map().keys() >= _FEET:
+    if not own or rig.skeleton.role_map().keys() >= set(FEET):
         return rig
     find_hanging(context, obj, [action for action in own if moves_beside(obj, rig, action)])
     return make_rig(obj)

@@ -15,7 +15,7 @@ from bpy.props import BoolProperty, StringProperty
 from ..compat.core import core
 from ..errors import UserError, core_errors
 from ..files import check_regular
-from .rigs import FORE_FOOT, make_rig, roles_in_bones
+from .rigs import FEET, FORE_FOOT, make_rig, roles_in_bones
 from .selection import highlight
 from .skins import make_skin
 
@@ -40,7 +40,6 @@ _NEEDED_ON_FOUR_LEGS = (
     *(f"{side}_{part}" for part in ("thigh", "foot", "fore_leg", "fore_foot") for side in ("left", "right")),
 )
 """and those of a body that stands on four legs."""
-_FEET = ("left_foot", "right_foot")
 
 
 def _drop_doubt_of_another(role: RoleBone, _context: bpy.types.Context) -> None:
@@ -106,12 +105,12 @@ def keep_legs_of_skin(obj: bpy.types.Object, rig: Rig) -> None:
 
 def _tells_other_feet(skin: Skin, rig: Rig, named: Mapping[str, str]) -> bool:
     found = _find_roles(rig, skin)
-    return any(role in found and found[role] != named.get(role) for role in _FEET)
+    return any(role in found and found[role] != named.get(role) for role in FEET)
 
 
 def _all_but_feet(skeleton: Skeleton, named: Mapping[str, str]) -> Skin:
     """As if a mesh followed all bones but the feet that names tell: cheaper than to read one."""
-    feet = {skeleton.names.index(named[role]) for role in _FEET if role in named}
+    feet = {skeleton.names.index(named[role]) for role in FEET if role in named}
     for bone, parent in enumerate(skeleton.parents):
         if parent in feet:
             feet.add(bone)

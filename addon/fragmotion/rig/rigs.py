@@ -15,6 +15,7 @@ from ..errors import UserError, core_errors
 if TYPE_CHECKING:
     from fragmotion_core import Rig
 
+FEET = ("left_foot", "right_foot")
 FORE_FOOT = "left_fore_foot"
 """A role that bodies on four legs alone have."""
 HELD = "fragmotion_held"

@@ -34,18 +34,12 @@ Quaternion world_turn(const Skeleton& skeleton, int bone, const double* rotation
   return world;
 }
 
-void turn_bone(const Quaternion& world, const Vector3& axis, const HalfAngle& half, double* local) {
-  const Vector3 turn = half.sine * turned(world.conjugate(), axis);
+void turn_bone(const Skeleton& skeleton, int bone, const Vector3& axis, double angle, double* rotations) {
+  const PlaneTurn half(angle / 2);
+  const Vector3 turn = half.sine * turned(world_turn(skeleton, bone, rotations).conjugate(), axis);
+  double* local = &rotations[std::size_t{4} * bone];
   store_quaternion((load_quaternion(local) * Quaternion{half.cosine, turn.x(), turn.y(), turn.z()}).normalized(),
                    local);
-}
-
-void turn_bone(const Skeleton& skeleton, int bone, const Vector3& axis, const HalfAngle& half, double* rotations) {
-  turn_bone(world_turn(skeleton, bone, rotations), axis, half, &rotations[std::size_t{4} * bone]);
-}
-
-void turn_bone(const Skeleton& skeleton, int bone, const Vector3& axis, double angle, double* rotations) {
-  turn_bone(skeleton, bone, axis, HalfAngle(angle), rotations);
 }
 
 int spine_bones(const Skeleton& skeleton, const Trunk& trunk) {

@@ -23,17 +23,8 @@ int spine_bones(const Skeleton& skeleton, const Trunk& trunk);
 /// How a bone below the hips is turned in the world by a pose's rotations [bones, 4].
 Quaternion world_turn(const Skeleton& skeleton, int bone, const double* rotations);
 
-/// Half of an angle, rad, as the quaternion of a turn by it holds it.
-struct HalfAngle : PlaneTurn {
-  explicit HalfAngle(double angle) : PlaneTurn(angle / 2) {}
-};
-
-/// Turns a bone that is turned in the world like that by an angle about an axis that is given there.
-void turn_bone(const Quaternion& world, const Vector3& axis, const HalfAngle& half, double* local);
-/// Turns a bone of a pose's rotations [bones, 4] by an angle about an axis that is given in the world; its children go
-/// along.
-void turn_bone(const Skeleton& skeleton, int bone, const Vector3& axis, const HalfAngle& half, double* rotations);
-/// The same by an angle in rad.
+/// Turns a bone of a pose's rotations [bones, 4] by an angle, rad, about an axis that is given in the world; its
+/// children go along.
 void turn_bone(const Skeleton& skeleton, int bone, const Vector3& axis, double angle, double* rotations);
 
 /// Turns the trunk, each bone of its spine by as much, so that the chest turns by the angle, and the head back by

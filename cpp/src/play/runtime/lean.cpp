@@ -36,14 +36,14 @@ void Lean::apply(const Skeleton& skeleton, WorldPose& pose, const Vector2& accel
 // its sines and cosines are those of the others: hips that have not leaned yet see the axis of the spine turned back.
 void Lean::lean_by(const Skeleton& skeleton, const Vector2& lean, const PlaneTurn& facing, double* rotations) const {
   static_assert(kHeadBack == 0.5, "hips turn by twice as much as the head turns back");
-  const HalfAngle back(kHeadBack * lean.y()), spine(lean.x() / spine_bones(skeleton, trunk_));
+  const PlaneTurn back(kHeadBack * lean.y() / 2), spine(lean.x() / spine_bones(skeleton, trunk_) / 2);
   const PlaneTurn hips = back.twice(), whole = hips.twice();
   const Vector3 left{-facing.cosine, -facing.sine, 0},
       forward{-whole.cosine * facing.sine, whole.cosine * facing.cosine, whole.sine};
   const Quaternion aside = about(forward, spine);
   if (trunk_.head >= 0) {
     const Quaternion neck = bend(skeleton, skeleton.parents[trunk_.head], false, aside, rotations);
-    const Quaternion aside_back = about(forward, HalfAngle(-kHeadBack * lean.x()));
+    const Quaternion aside_back = about(forward, PlaneTurn(-kHeadBack * lean.x() / 2));
     turn_on(neck, product(aside_back, about(left, back).conjugate()), &rotations[std::size_t{4} * trunk_.head]);
   } else {
     bend(skeleton, trunk_.chest, true, aside, rotations);
