@@ -8,6 +8,8 @@
 #include "base/rounding.hpp"
 #include "base/vectorised.hpp"
 
+#pragma GCC diagnostic ignored "-Wpsabi"  // how vectors are returned, of functions that are inlined
+
 namespace fragmotion {
 
 namespace {
@@ -33,17 +35,26 @@ Quaternion rotation_towards(const Vector2& direction) {
   return {w, 0, 0, std::copysign(z, sine)};
 }
 
-/// From head and orientation of a bone to those of one that hangs on it. Number by number: what a vector instruction
-/// would load has just been written in other parts, and would have to be waited for.
-inline void attach(const Vector3& offset, const double* wxyz, Vector3& head, Quaternion& turn) {
-  const double w = turn.w(), x = turn.x(), y = turn.y(), z = turn.z();
-  const double u = 2 * (y * offset.z() - z * offset.y()), v = 2 * (z * offset.x() - x * offset.z()),
-               t = 2 * (x * offset.y() - y * offset.x());
-  head = {head.x() + offset.x() + w * u + y * t - z * v, head.y() + offset.y() + w * v + z * u - x * t,
-          head.z() + offset.z() + w * t + x * v - y * u};
-  const double a = wxyz[0], b = wxyz[1], c = wxyz[2], d = wxyz[3];
-  turn = {w * a - x * b - y * c - z * d, w * b + x * a + y * d - z * c, w * c - x * d + y * a + z * b,
-          w * d + x * c - y * b + z * a};
+/// Four numbers side by side: x, y, z and, of a rotation, w; as they are in memory, which may lie anywhere.
+using Four = double __attribute__((vector_size(32)));
+using StoredFour = double __attribute__((vector_size(32), aligned(8), may_alias));
+
+template <int kA, int kB, int kC, int kD>
+[[gnu::always_inline]] inline Four ordered(const Four& v) {
+  return Four{v[kA], v[kB], v[kC], v[kD]};
+}
+
+[[gnu::always_inline]] inline Four four(const Vector3& v) { return Four{v.x(), v.y(), v.z(), 0}; }
+
+/// From head and orientation of a bone to those of one that hangs on it. The sums are in the order of product() and of
+/// turned().
+[[gnu::always_inline]] inline void attach(const Four& offset, const Four& wxyz, Four& head, Four& turn) {
+  const Four yzx = ordered<1, 2, 0, 3>(turn), zxy = ordered<2, 0, 1, 3>(turn),
+             across = 2 * (yzx * ordered<2, 0, 1, 3>(offset) - zxy * ordered<1, 2, 0, 3>(offset));
+  head = head + offset + turn[3] * across + yzx * ordered<2, 0, 1, 3>(across) - zxy * ordered<1, 2, 0, 3>(across);
+  turn = turn[3] * ordered<1, 2, 3, 0>(wxyz) + turn[0] * (ordered<0, 3, 2, 1>(wxyz) * Four{1, -1, 1, -1}) +
+         turn[1] * (ordered<3, 0, 1, 2>(wxyz) * Four{1, 1, -1, -1}) +
+         turn[2] * (ordered<2, 1, 0, 3>(wxyz) * Four{-1, 1, 1, -1});
 }
 
 }  // namespace
@@ -59,11 +70,12 @@ Vector3 CharacterFrame::to_local(const Vector3& world) const {
   return {c * x + s * y, c * y - s * x, world.z()};
 }
 
-Kinematics::Kinematics(const Skeleton& skeleton) {
+[[gnu::cold]] Kinematics::Kinematics(const Skeleton& skeleton) {
   const int hips = skeleton.roles.hips;
   assert(hips >= 0 && hips < skeleton.size());
   const auto parts = std::make_shared<Parts>();
   parts->skeleton = skeleton;
+  for (const Vector3& offset : skeleton.offsets) parts->offsets.push_back({offset.x(), offset.y(), offset.z(), 0});
   rest_pose(skeleton, parts->rest_heads, parts->rest_rotations);
   for (int b = 0; b < skeleton.size(); ++b) {
     if (b != hips) (skeleton.is_below(b, hips) ? parts->below : parts->carried).push_back(b);
@@ -93,7 +105,7 @@ void Kinematics::carry(const Vector3& root_position, const Quaternion& hips, Vec
   }
 }
 
-std::vector<int> Kinematics::chains(const std::vector<int>& ends) const {
+[[gnu::cold]] std::vector<int> Kinematics::chains(const std::vector<int>& ends) const {
   std::vector<int> bones;
   for (const int b : parts_->below) {
     const auto above = [&](int end) { return end >= 0 && skeleton().is_below(end, b); };
@@ -118,15 +130,19 @@ FRAGMOTION_VECTORISED void Kinematics::world_below(const Vector3& root_position,
                                                    Quaternion* orientations) const {
   const Skeleton& skeleton = parts_->skeleton;
   const int hips = skeleton.roles.hips;
-  Vector3 head = heads[hips] = root_position;
-  Quaternion turn = orientations[hips] = load_quaternion(rotations + std::ptrdiff_t{4} * hips);
+  heads[hips] = root_position;
+  orientations[hips] = load_quaternion(rotations + std::ptrdiff_t{4} * hips);
+  const auto turn_of = [&](int b) { return reinterpret_cast<StoredFour*>(orientations[b].coeffs().data()); };
+  Four head = four(root_position), turn = *turn_of(hips);
   int last = hips;
   for (const int b : bones) {
     const int parent = skeleton.parents[b];
-    if (parent != last) head = heads[parent], turn = orientations[parent];
-    attach(skeleton.offsets[b], rotations + std::ptrdiff_t{4} * b, head, turn);
-    heads[b] = head;
-    orientations[b] = turn;
+    if (parent != last) head = four(heads[parent]), turn = *turn_of(parent);
+    const Four offset = *reinterpret_cast<const StoredFour*>(parts_->offsets[b].data()),
+               wxyz = *reinterpret_cast<const StoredFour*>(rotations + std::ptrdiff_t{4} * b);
+    attach(offset, wxyz, head, turn);
+    heads[b] = {head[0], head[1], head[2]};
+    *turn_of(b) = turn;
     last = b;
   }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -55,7 +56,8 @@ class Kinematics {
  private:
   struct Parts {
     Skeleton skeleton;
-    Vector3 right;  // from the left thigh to the right one, in the hips' frame
+    std::vector<std::array<double, 4>> offsets;  // its own, and 0
+    Vector3 right;                               // from the left thigh to the right one, in the hips' frame
     CharacterFrame rest_frame;
     std::vector<int> carried, below;  // bones outside the tree of the hips, and those in it but for the hips
     std::vector<Vector3> rest_heads;  // of all bones, in the character frame
