@@ -168,15 +168,15 @@ void GroundFollower::raise_heel(int side, Vector3& ankle) {
   ankle = ball + heels_[side] * from_ball;
 }
 
-// Lowers a foot on its way that comes nearer to its hip than its leg folds up: onto the paraboloid that touches the
-// sphere of that from below, where it goes by without a kink.
+// Lowers a foot on its way that comes nearer to its hip than its leg folds up, or over it: onto the bell under the hip
+// that touches the sphere of that from below, where it goes by without a kink.
 void GroundFollower::unfold(int side, Vector3& ankle) const {
   const Leg& leg = body_->legs[side];
   const PosedBones& posed = body_->posed;
   const double least = shortest(leg, posed);
   const auto too_high = [&](const Vector3& at) {
     const Vector3 way = at - posed.heads[leg.thigh];
-    return std::max(0.0, way.z() + least - way.head<2>().squaredNorm() / (2 * least));
+    return std::max(0.0, way.z() + least * std::exp(-way.head<2>().squaredNorm() / (2 * least * least)));
   };
   ankle.z() -= (1 - feet_[side].weight()) * std::max(0.0, too_high(ankle) - too_high(ankle_of(leg, posed)));
 }
