@@ -94,7 +94,7 @@ Vector2 Playback::start_move(int part) { return start(place(0, part, frame_)); }
 
 Vector2 Playback::start(const Placed& next) {
   const bool inertializes = stitching_ == Stitching::inertialize;
-  if (far_away_ && inertializes && goes_on(next)) return go_on(next);
+  if (inertializes && goes_on(next)) return go_on(next);
   before_ = now_;
   const Vector2 went = far_away_ ? mean_travel().velocity : Vector2::Zero();
   play(next);
