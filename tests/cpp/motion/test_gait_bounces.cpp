@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 
+#include "dog.hpp"
 #include "motion/center_of_mass.hpp"
 #include "motion/gait_bounces.hpp"
 #include "stilts.hpp"
@@ -24,8 +25,8 @@ Clip bouncing(const Gait& gait, const std::function<double(int)>& rise) {
   return clip;
 }
 
-std::vector<bool> bounces_of(const Clip& clip) {
-  const Kinematics kinematics(humanoid());
+std::vector<bool> bounces_of(const Clip& clip, const Skeleton& skeleton = humanoid()) {
+  const Kinematics kinematics(skeleton);
   return gait_bounces(kinematics, clip, center_of_mass(kinematics, clip));
 }
 
@@ -66,6 +67,29 @@ TEST(GaitBounces, AreNotInALeapOutOfARun) {
   };
   EXPECT_FALSE(at(leap + 0.5));
   for (const int step : {1, 2, 6, 7}) EXPECT_TRUE(at(step + 0.5)) << step;
+}
+
+// A gallop of two flights in a stride of 0.6 s: `rise` m in the flight of a number.
+Clip galloping(const std::function<double(int)>& rise) {
+  Clip clip = dog_clip({}, true, "gallop");
+  for (int f = 0; f < clip.frames; ++f) {
+    const double flights = f / clip.rate / 0.3, air = std::sin(kPi * flights);
+    clip.root_positions[3 * f + 2] += rise(static_cast<int>(std::floor(flights))) * air * air;
+  }
+  return clip;
+}
+
+TEST(GaitBounces, AreInAGallopThatFliesHigherStretchedThanGathered) {
+  const Clip clip = galloping([](int flight) { return flight % 2 == 0 ? 0.25 : 0.08; });
+  EXPECT_EQ(count(bounces_of(clip, dog())), clip.frames);
+}
+
+TEST(GaitBounces, AreNotInALeapOutOfAGallop) {
+  const Clip clip = galloping([](int flight) { return flight == 4 ? 0.5 : flight % 2 == 0 ? 0.25 : 0.08; });
+  const std::vector<bool> found = bounces_of(clip, dog());
+  const auto at = [&](double flights) { return found[std::lround(flights * 0.3 * clip.rate)]; };
+  EXPECT_FALSE(at(4.5));
+  for (const int flight : {0, 1, 2, 6, 7}) EXPECT_TRUE(at(flight + 0.5)) << flight;
 }
 
 TEST(GaitBounces, AreUnknownWithoutFeet) {

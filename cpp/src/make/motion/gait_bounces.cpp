@@ -70,7 +70,7 @@ std::vector<Bounce> bounces_of(const std::vector<Vector3>& center, const FootPat
   const auto change_places = [&](int from, int to) {
     return apart(feet, clip, from).dot(apart(feet, clip, to)) * scale * scale < -kFeetApart * kFeetApart;
   };
-  const bool gallops = !feet[2].heel.empty();  // hind legs may swing together
+  const bool gallops = feet.count() > 2;  // hind legs may swing together
   for (std::size_t i = 0; i < bounces.size(); ++i) {
     Bounce& bounce = bounces[i];
     const int top = bounces[i + 1 < bounces.size() ? i + 1 : std::max<std::size_t>(i, 1) - 1].top;
@@ -90,10 +90,11 @@ std::vector<bool> gait_bounces(const Kinematics& kinematics, const Clip& clip, c
   const auto goes_on = [&](std::size_t i, std::size_t beside) {
     return beside < bounces.size() && bounces[beside].alternates && bounces[beside].rise >= kAsHigh * bounces[i].rise;
   };
+  const std::size_t flights = feet.count() / 2;  // of a stride of a gallop, one higher than the other
   for (std::size_t i = 0; i < bounces.size(); ++i) {
     const bool at_end = i == 0 || i + 1 == bounces.size();
     if (!bounces[i].alternates && !at_end) continue;
-    if (!goes_on(i, i - 1) && !goes_on(i, i + 1)) continue;
+    if (!goes_on(i, i - 1) && !goes_on(i, i + 1) && !goes_on(i, i - flights) && !goes_on(i, i + flights)) continue;
     std::fill(in_gait.begin() + bounces[i].begin, in_gait.begin() + bounces[i].end + 1, true);
   }
   return in_gait;
