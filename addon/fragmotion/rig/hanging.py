@@ -42,7 +42,7 @@ def find_hanging(context: bpy.types.Context, obj: bpy.types.Object, actions: Seq
         poses = np.concatenate([posing.sample_poses(context, obj, action, _times(action))[0] for action in actions])
         parents = [bones.find(bone.parent.name) if bone.parent else -1 for bone in bones]
         moving = core.find_hanging(bones.keys(), parents, poses, [bones.find(name) for name in candidates])
-        found = {**found, **_beside_hips(obj, hips, candidates), **moving}
+        found = {**found, **_beside_hips(obj, hips, candidates), **_on_body(obj, hips, moving)}
     for bone, on in sorted(found.items()):
         row = obj.fragmotion.hanging.add()
         row.name, row.on = bones[bone].name, bones[on].name
@@ -74,6 +74,14 @@ def _beside_hips(obj: bpy.types.Object, hips: bpy.types.Bone, moved: Sequence[st
     line = {hips.name, *(bone.name for bone in hips.parent_recursive)}
     beside = [child for name in moved if name in line for child in bones[name].children if child.name not in line]
     return {bones.find(child.name): bones.find(hips.name) for child in beside if not is_tied(child)}
+
+
+def _on_body(obj: bpy.types.Object, hips: bpy.types.Bone, moving: Mapping[int, int]) -> dict[int, int]:
+    """As these bones move, but what moves with a bone above the hips with the hips: clips know no pose above them."""
+    bones = obj.data.bones
+    above = {bones.find(bone.name) for bone in hips.parent_recursive}
+    on_body = {bone: bones.find(hips.name) if on in above else on for bone, on in moving.items()}
+    return {bone: on for bone, on in on_body.items() if bones[bone].parent != bones[on]}
 
 
 def _carries_no_other(obj: bpy.types.Object, above: str, hanging: Mapping[str, str]) -> bool:

@@ -138,6 +138,27 @@ def test_a_tail_beside_the_hips_goes_where_they_go(addon: ModuleType) -> None:
         assert off < np.linalg.norm(obj.pose.bones["hips"].location) + 1e-3, "by what the hips go on their own"
 
 
+def test_a_trunk_that_moves_with_the_root_stays_on_the_hips(addon: ModuleType) -> None:
+    obj = making.open_sample()
+    obj.fragmotion.moves.clear()
+    action = bpy.data.actions["walk forward"]
+    for each in bpy.data.actions:
+        each.fragmotion.use = each == action
+    (trunk,) = [bone.name for bone in obj.data.bones["hips"].children if not bone.name.startswith("thigh")]
+    with making.editing(obj) as bones:
+        bones[trunk].use_connect = False
+    addon.compat.versions.assign(obj, action)
+    beside = obj.data.bones["root"].matrix_local.inverted() @ obj.data.bones[trunk].matrix_local
+    for frame in range(int(action.frame_range[0]), int(action.frame_range[1]) + 1):
+        bpy.context.scene.frame_set(frame)
+        obj.pose.bones[trunk].matrix = obj.pose.bones["root"].matrix @ beside
+        for channel in ("location", "rotation_quaternion"):
+            obj.pose.bones[trunk].keyframe_insert(channel)
+    told = addon.rig.hanging.find_hanging(bpy.context, obj, [action])
+    assert trunk not in {row.name for row in obj.fragmotion.hanging}
+    assert any(f"Left out: what keys of bone '{trunk}'" in each for each in told)
+
+
 def test_what_hangs_on_no_bone_goes_along(addon: ModuleType) -> None:
     obj = making.open_sample()
     action = bpy.data.actions["walk forward"]
