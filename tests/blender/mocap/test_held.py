@@ -86,6 +86,21 @@ def test_it_is_learned_as_blender_shows_it(addon: ModuleType, carried: bpy.types
     np.testing.assert_allclose(found, seen, atol=2e-5)
 
 
+def test_what_an_action_of_another_armature_keys_is_held(addon: ModuleType, carried: bpy.types.Object) -> None:
+    other = carried.copy()
+    bpy.context.scene.collection.objects.link(other)
+    other.animation_data.action = bpy.data.actions["stand"].copy()
+    other.pose.bones["carrier"].keyframe_insert("location", frame=1)
+    for each in (other, carried):
+        addon.compat.versions.assign(each, None if each == carried else other.animation_data.action)
+    addon.mocap.sampling.rig_as_posed(carried)
+    assert addon.rig.rigs.held_of(carried)["carrier"][:3] == pytest.approx(PLACED)
+    addon.compat.versions.assign(other, None)
+    del carried[addon.rig.rigs.HELD]
+    addon.mocap.sampling.rig_as_posed(carried)
+    assert addon.rig.rigs.held_of(carried)["carrier"][:3] == [0, 0, 0], "it may be this one's"
+
+
 def test_what_is_keyed_may_be_posed_as_it_likes(addon: ModuleType, carried: bpy.types.Object) -> None:
     action = bpy.data.actions["walk forward"]
     names, _ = shown(addon, carried, action)
