@@ -26,7 +26,8 @@ Rig new_rig(const std::vector<std::string>& names, const std::vector<int>& paren
             const Doubles& lengths, const Doubles& world, const std::optional<Flags>& inherit_rotation,
             const std::optional<Flags>& local_location, const std::optional<std::map<std::string, std::string>>& roles,
             const std::optional<std::map<std::string, std::string>>& hangs,
-            const std::optional<std::map<std::string, std::array<double, 7>>>& held) {
+            const std::optional<std::map<std::string, std::array<double, 7>>>& held,
+            const std::optional<std::map<std::string, double>>& sizes) {
   const auto bones = static_cast<py::ssize_t>(names.size());
   check_shape(lengths, "lengths", {bones});
   check_shape(world, "world", {4, 4});
@@ -42,6 +43,7 @@ Rig new_rig(const std::vector<std::string>& names, const std::vector<int>& paren
   if (roles) armature.roles = *roles;
   if (hangs) armature.hangs = *hangs;
   if (held) armature.held = *held;
+  if (sizes) armature.sizes = *sizes;
   return Rig(std::move(armature));
 }
 
@@ -105,7 +107,8 @@ void bind_rig(py::module_& m) {
   py::class_<Rig>(m, "Rig", py::module_local())
       .def(py::init(&new_rig), py::arg("names"), py::arg("parents"), py::arg("rest"), py::arg("lengths"),
            py::arg("world"), py::arg("inherit_rotation") = py::none(), py::arg("local_location") = py::none(),
-           py::arg("roles") = py::none(), py::arg("hangs") = py::none(), py::arg("held") = py::none())
+           py::arg("roles") = py::none(), py::arg("hangs") = py::none(), py::arg("held") = py::none(),
+           py::arg("sizes") = py::none())
       .def_property_readonly("skeleton", &Rig::skeleton)
       .def_property_readonly("rise", &Rig::rise)
       .def_property_readonly("carried",

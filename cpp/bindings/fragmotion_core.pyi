@@ -218,19 +218,21 @@ class Rig:
         roles: dict[str, str] | None = None,
         hangs: dict[str, str] | None = None,
         held: Mapping[str, Sequence[float]] | None = None,
+        sizes: Mapping[str, float] | None = None,
     ) -> None:
         """rest [B,4,4]: armature-space rest matrices (row-major, y along the bone), lengths [B] of the bones along y,
         world [4,4]: the armature object's matrix (a scale that is uniform but along the vertical), inherit_rotation and
         local_location [B] bool (default all True). hangs: bone -> the bone that it moves with, though it is another's
         child. held: bone -> the location (x, y, z) and rotation (w, x, y, z) that it has in the armature where nothing
-        keys it: so the skeleton rests, but what is below the hips is not turned by it. Raises ValueError on any other
-        or a mirrored scale, naming it, and on a bone that hangs on one that it moves. Bones outside the tree of the
-        hips keep their rest pose."""
+        keys it: so the skeleton rests, but what is below the hips is not turned by it. sizes: bone -> how many times as
+        large as it rests it is posed, with all its descendants. Raises ValueError on any other or a mirrored scale,
+        naming it, and on a bone that hangs on one that it moves. Bones outside the tree of the hips keep their rest
+        pose."""
     skeleton: Skeleton
     """In world metres, as wide as it is shown."""
     carried: Doubles
-    """[4,4]: what takes the hips, and what they carry, from the armature's rest to where they are held, in its own
-    space."""
+    """[4,4]: what takes the hips, and what they carry, from the armature's rest to where they are held and as large as
+    they are then, in its own space."""
     rise: float
     """How many times as high as the heights of its skeleton, clips and poses it is shown; 1 but for a hundredth."""
     def clip(

@@ -67,8 +67,10 @@ inline std::vector<Matrix4> blender_pose(const Armature& armature, const double*
     const Matrix4 axes = armature.local_location[b] ? moved : above;
     const Matrix4 base = armature.inherit_rotation[b] ? moved : rest;
     const Vector3 shift = axes.topLeftCorner<3, 3>() * load_vector(locations + 3 * b);
+    const auto size = armature.sizes.find(armature.names[b]);
+    const double own = size == armature.sizes.end() ? 1 : size->second;
     pose[b] = compose(moved.topRightCorner<3, 1>() + shift,
-                      rotation_of(base) * load_quaternion(rotations + 4 * b).normalized());
+                      rotation_of(base) * load_quaternion(rotations + 4 * b).normalized(), own * above.col(0).norm());
   }
   return pose;
 }

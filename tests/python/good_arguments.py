@@ -157,6 +157,7 @@ def good_arguments(folder: Path) -> dict[str, dict[str, Any]]:
             "roles": {"head": "head"},
             "hangs": {},
             "held": {"head": [0.0, 0.0, 0.1, 1.0, 0.0, 0.0, 0.0]},
+            "sizes": {"head": 1.2},
         },
         "Rig.clip": {
             "self": rig,

@@ -16,7 +16,7 @@ from ..mocap.actions import RATE, SCENE_RATE, ticked
 from ..mocap.curve_points import points_of
 from ..mocap.markers import marks_of
 from ..mocap.styles import style_of
-from ..rig.rigs import held_of, roles_in_bones
+from ..rig.rigs import held_of, roles_in_bones, sizes_of
 from ..rig.writing import LINEAR
 
 _PATIENCE = 0.03  # s that one look may take; what is not read by then waits for the next look
@@ -48,7 +48,7 @@ def is_stale(obj: bpy.types.Object) -> bool:
 
 def _told_by_bones(obj: bpy.types.Object) -> list[str]:
     roles = [f"{role} {bone}" for role, bone in sorted(roles_in_bones(obj).items()) if role in core.ROLES]
-    return roles + [f"{bone} {row}" for bone, row in held_of(obj).items()]
+    return roles + [f"{bone} {row}" for bone, row in (*held_of(obj).items(), *sizes_of(obj).items())]
 
 
 def register() -> None:

@@ -14,6 +14,7 @@ import bpy
 from ..character.building import save_policy
 from ..compat import versions
 from ..errors import UserError
+from ..rig.rigs import sizes_of
 
 POLICY, MESH = ".policy", ".glb"
 
@@ -44,6 +45,7 @@ def export(context: bpy.types.Context, obj: bpy.types.Object, path: Path) -> tup
 
 def export_mesh(context: bpy.types.Context, obj: bpy.types.Object, path: Path) -> None:
     """Write the armature and its meshes at rest by Blender's own exporter; UserError where that fails."""
+    _check_size(obj)
     options = {"use_selection": True, "export_animations": False, "export_format": "GLB"}
     versions.own_by_shown_scene()
     with _selected(context, [obj, *meshes_of(context, obj)]), _at_rest(obj):
@@ -53,6 +55,15 @@ def export_mesh(context: bpy.types.Context, obj: bpy.types.Object, path: Path) -
             raise UserError("Blender's add-on 'glTF 2.0 format' is off: turn it on in the preferences") from error
         except RuntimeError as error:
             raise UserError(f"Blender's glTF exporter failed: {error}") from error
+
+
+def _check_size(obj: bpy.types.Object) -> None:
+    """UserError where the armature rests in another size than it is shown in."""
+    for name, size in sizes_of(obj).items():
+        raise UserError(
+            f"Bone '{name}' of armature '{obj.name}' is scaled and shows the body {size:.3g} times as large as it "
+            "rests, which a file for a game does not: retarget its Actions onto a copy that rests as large, and Build"
+        )
 
 
 def _is_moved_by(mesh: bpy.types.Object, obj: bpy.types.Object) -> bool:

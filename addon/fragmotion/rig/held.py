@@ -11,6 +11,7 @@ import numpy as np
 
 from ..compat import versions
 from .rigs import HELD, PUT_ASIDE, bone_path, held_of, is_tied
+from .scaled import keep_sizes
 
 if TYPE_CHECKING:
     from fragmotion_core import Doubles
@@ -22,9 +23,11 @@ _CHANNELS = {"location": slice(0, 3), "rotation": slice(3, 7)}  # of a row, as r
 
 def keep_held(obj: bpy.types.Object, actions: Iterable[bpy.types.Action]) -> None:
     """Keep with the armature how its bones are posed that none of these Actions keys, and no driver moves. What is
-    keyed is as it was kept when it was not; its location and its rotation each."""
+    keyed is as it was kept when it was not; its location and its rotation each. And how large they show the body."""
     if PUT_ASIDE in obj or obj.library is not None:
         return
+    actions = list(actions)
+    keep_sizes(obj, actions)
     kept, found = held_of(obj), {}
     posed = {bone.name: row for bone in obj.pose.bones if not np.allclose(row := _row(bone), _REST, atol=_POSED)}
     keyed = set(_keyed(obj, actions)) if posed or kept else set()

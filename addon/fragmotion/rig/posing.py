@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -14,7 +14,7 @@ import numpy as np
 from ..compat import versions
 from ..errors import UserError
 from .keys import from_quaternions
-from .rigs import held_of
+from .rigs import held_of, sizes_of
 
 if TYPE_CHECKING:
     from fragmotion_core import Doubles
@@ -66,7 +66,7 @@ def sample_poses(
     return matrices, worlds
 
 
-def reset_pose(obj: bpy.types.Object, channels: Iterable[str] = CHANNELS) -> None:
+def reset_pose(obj: bpy.types.Object, channels: Collection[str] = CHANNELS) -> None:
     """Let these channels of all the armature's bones rest, or be as bones are held."""
     for channel in channels:
         obj.pose.bones.foreach_set(channel, np.tile(np.array(_REST[channel], np.float32), len(obj.pose.bones)))
@@ -76,6 +76,8 @@ def reset_pose(obj: bpy.types.Object, channels: Iterable[str] = CHANNELS) -> Non
         for each, value in (("location", row[:3]), (channel, rotation)):
             if each in channels:
                 setattr(bone, each, value)
+    for name, size in sizes_of(obj).items() if "scale" in channels else ():
+        obj.pose.bones[name].scale = (size, size, size)
     obj.update_tag()
 
 

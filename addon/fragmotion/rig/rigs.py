@@ -20,6 +20,8 @@ FORE_FOOT = "left_fore_foot"
 """A role that bodies on four legs alone have."""
 HELD = "fragmotion_held"
 """Custom property of an armature object: location and rotation of its bones that are posed and not keyed."""
+SIZES = "fragmotion_sizes"
+"""Custom property of an armature object: how many times as large as they rest bones that carry the body are shown."""
 PUT_ASIDE = "fragmotion_put_aside"
 """Custom property of an armature object while it is driven, or shows a take or a class."""
 FEWEST_BONES = 2
@@ -44,6 +46,7 @@ def make_rig(obj: bpy.types.Object, place: Matrix | None = None) -> Rig:
             roles={role: bone for role, bone in roles_in_bones(obj).items() if role in core.ROLES and bone in bones},
             hangs={name: on for name, on in hanging_of(obj).items() if name in bones and on in bones},
             held=held_of(obj),
+            sizes=sizes_of(obj),
         )
         return rig
 
@@ -78,6 +81,12 @@ def held_of(obj: bpy.types.Object) -> dict[str, list[float]]:
     """Location (x, y, z) and rotation (w, x, y, z) of the bones that are posed and not keyed, as `held.keep_held` found
     them."""
     return {name: list(row) for name, row in obj.get(HELD, {}).items() if name in obj.data.bones}
+
+
+def sizes_of(obj: bpy.types.Object) -> dict[str, float]:
+    """How many times as large as they rest bones are shown, with all that hangs on them, as `held.keep_held` found
+    them."""
+    return {name: float(size) for name, size in obj.get(SIZES, {}).items() if name in obj.data.bones}
 
 
 def carriers(obj: bpy.types.Object, rig: Rig) -> list[str]:

@@ -10,7 +10,7 @@ import numpy as np
 from mathutils import Matrix
 
 from ..compat.core import core
-from .rigs import held_of, stretch_of
+from .rigs import held_of, sizes_of, stretch_of
 
 if TYPE_CHECKING:
     from fragmotion_core import Doubles, Rig, Skin
@@ -49,7 +49,7 @@ def _copies(obj: bpy.types.Object) -> set[str]:
 
 def _carried(obj: bpy.types.Object, rig: Rig) -> Matrix:
     """What takes meshes at rest to where held bones carry the body."""
-    if not held_of(obj):
+    if not held_of(obj) and not sizes_of(obj):
         return Matrix()
     return obj.matrix_world @ Matrix(rig.carried.tolist()) @ obj.matrix_world.inverted()
 

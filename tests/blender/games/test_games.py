@@ -63,6 +63,16 @@ def test_without_a_mesh_nothing_is_saved(addon: ModuleType, obj: bpy.types.Objec
     assert list(tmp_path.iterdir()) == []
 
 
+def test_a_body_that_a_bone_makes_larger_is_not_saved_smaller(
+    addon: ModuleType, obj: bpy.types.Object, tmp_path: Path
+) -> None:
+    obj.pose.bones["root"].scale = (2, 2, 2)
+    addon.mocap.sampling.rig_as_posed(obj)
+    with pytest.raises(RuntimeError, match=r"Bone 'root' .* 2 times as large as it rests"):
+        bpy.ops.fragmotion.export_to_game("EXEC_DEFAULT", filepath=str(tmp_path / "large"))
+    assert not list(tmp_path.iterdir())
+
+
 def test_a_folder_that_is_not_there_is_said(obj: bpy.types.Object, tmp_path: Path) -> None:
     with pytest.raises(RuntimeError, match=r"no folder' takes no files \(No such file.*\): choose another folder"):
         bpy.ops.fragmotion.export_to_game(filepath=str(tmp_path / "no folder" / "hero"))

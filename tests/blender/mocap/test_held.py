@@ -86,6 +86,53 @@ def test_it_is_learned_as_blender_shows_it(addon: ModuleType, carried: bpy.types
     np.testing.assert_allclose(found, seen, atol=2e-5)
 
 
+@pytest.mark.parametrize("by", ["pose", "keys"])
+def test_a_bone_that_makes_the_whole_body_larger(addon: ModuleType, carried: bpy.types.Object, by: str) -> None:
+    action, bone = bpy.data.actions["walk forward"], carried.pose.bones["carrier"]
+    bpy.context.scene.render.fps, bone.scale = 60, (3, 3, 3)
+    if by == "keys":
+        addon.compat.versions.assign(carried, action)
+        bone.keyframe_insert("scale", frame=1)
+    names, seen = shown(addon, carried, action)
+    found = learned(addon, carried, action, names)
+    assert addon.rig.rigs.sizes_of(carried) == pytest.approx({"carrier": 3})
+    np.testing.assert_allclose(np.linalg.norm(seen[..., :3, :3], axis=-2), 3, atol=1e-5)
+    seen[..., :3, :3] /= 3
+    np.testing.assert_allclose(found, seen, atol=6e-5)
+
+
+def test_a_larger_body_is_built_and_baked_as_large(
+    addon: ModuleType, carried: bpy.types.Object, capfd: pytest.CaptureFixture[str]
+) -> None:
+    carried.pose.bones["carrier"].scale = (3, 3, 3)
+    skeleton = addon.rig.rigs.make_rig(carried).skeleton
+    build(carried)
+    assert "the scale of" not in capfd.readouterr().out
+    assert carried.fragmotion.figures.stature == pytest.approx(3 * skeleton.stature, rel=1e-3)
+    assert bpy.ops.fragmotion.bake("EXEC_DEFAULT", trace_source="PLAYER", seconds=4) == {"FINISHED"}
+    assert tuple(carried.pose.bones["carrier"].scale) == pytest.approx((3, 3, 3))
+    baked, names = carried.animation_data.action, making.body_bones(skeleton)
+    order = [skeleton.names[bone] for bone in names]
+    heads, hips = matrices(carried, (20, 60, 90), order)[..., :3, 3], order.index(skeleton.roles["hips"])
+    seen = np.linalg.norm(heads - heads[:, hips : hips + 1], axis=2).max()
+    at_rest = np.linalg.norm(skeleton.offsets[1:], axis=1).sum()
+    assert baked.fragmotion is not None and 0.6 * 3 < seen < at_rest * 3
+    feet = heads[:, [order.index(skeleton.roles[foot]) for foot in ("left_foot", "right_foot")], 2]
+    assert np.ptp(feet.min(axis=1)) < 0.1 * 3 * skeleton.stature
+
+
+def test_a_scale_that_is_not_the_same_in_all_actions_is_left_out(addon: ModuleType, carried: bpy.types.Object) -> None:
+    bone = carried.pose.bones["carrier"]
+    for name, scale in (("walk forward", 3.0), ("run forward", 2.0)):
+        addon.compat.versions.assign(carried, bpy.data.actions[name])
+        bone.scale = (scale,) * 3
+        bone.keyframe_insert("scale", frame=1)
+    addon.mocap.sampling.rig_as_posed(carried)
+    assert addon.rig.rigs.sizes_of(carried) == {}
+    (told,) = addon.rig.scaled.say_scaled(carried, list(bpy.data.actions))
+    assert "the scale of bone 'carrier', up to 3 times" in told
+
+
 def test_what_an_action_of_another_armature_keys_is_held(addon: ModuleType, carried: bpy.types.Object) -> None:
     other = carried.copy()
     bpy.context.scene.collection.objects.link(other)

@@ -143,6 +143,8 @@ TEST(Rig, RefusesBadArmaturesNamingTheCause) {
        },
        {"'head'", "'lamp'", "'root'"}},
       {"holds no bone", [](Armature& a) { a.held["tail"] = {}; }, {"'tail'", "no such bone"}},
+      {"no bone is large", [](Armature& a) { a.sizes["tail"] = 2; }, {"'tail'", "no such bone"}},
+      {"as large as nothing", [](Armature& a) { a.sizes["head"] = 0; }, {"'head'", "0.000000 times as large"}},
       {"holds no rotation", [](Armature& a) { a.held["head"] = {}; }, {"'head'", "zero quaternion"}},
   };
   for (const auto& c : cases) {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 
 #include "random_armature.hpp"
 
@@ -17,6 +18,13 @@ Armature held_armature(std::uint64_t seed, bool special) {
     store_vector(load_vector(channels.locations.data()), place.data());
     store_quaternion(turn, place.data() + 3);
   }
+  return armature;
+}
+
+/// The root, the hips and a foot are as large as they do not rest.
+Armature sized_armature(std::uint64_t seed, bool special) {
+  Armature armature = held_armature(seed, special);
+  armature.sizes = {{"root", 7.26}, {"hips", 0.5}, {"foot.L", 3}};
   return armature;
 }
 
@@ -56,6 +64,33 @@ TEST_P(RigChannels, PoseAsKinematicsDoesWhereBonesAreHeld) {
   expect_posed_as_kinematics_does(held_armature(31, GetParam()));
 }
 
+TEST_P(RigChannels, PoseAsKinematicsDoesWhereBonesAreLargerThanAtRest) {
+  expect_posed_as_kinematics_does(sized_armature(31, GetParam()));
+}
+
+TEST_P(RigChannels, AreLearnedAsBlenderShowsThemWhereBonesAreLargerThanAtRest) {
+  const Armature armature = sized_armature(41, GetParam());
+  const Rig rig(armature);
+  const Channels channels = random_channels(12, 3, 42);
+  std::vector<double> matrices;
+  for (int f = 0; f < 3; ++f) {
+    const auto pose = blender_pose(armature, &channels.locations[36 * f], &channels.rotations[48 * f]);
+    for (const Matrix4& bone : pose) append(bone, matrices);
+  }
+  expect_same_motion(clip_of(rig, channels), rig.clip_from_matrices("walk", 30, 3, matrices.data()), 1e-7);
+}
+
+TEST(RigSizes, MakeTheWholeSoManyTimesAsLarge) {
+  Armature armature = random_armature(43);
+  const Skeleton small = Rig(armature).skeleton();
+  armature.sizes = {{"root", 100}};
+  const Skeleton large = Rig(armature).skeleton();
+  for (int b = 1; b < small.size(); ++b) {
+    EXPECT_LT((large.offsets[b] - 100 * small.offsets[b]).norm(), 1e-9) << small.names[b];
+    EXPECT_LT((large.tips[b] - 100 * small.tips[b]).norm(), 1e-9 * large.tips[b].norm() + 1e-9) << small.names[b];
+  }
+}
+
 TEST(RigHeld, BonesKeepTheirPlacesAndWhatIsNotBelowTheHipsItsTurn) {
   const Armature armature = held_armature(37, false);
   const Rig rig(armature);
@@ -73,7 +108,7 @@ TEST(RigHeld, BonesKeepTheirPlacesAndWhatIsNotBelowTheHipsItsTurn) {
 }
 
 TEST(RigHeld, CarriesTheHipsToWhereTheSkeletonRests) {
-  const Armature armature = held_armature(39, true);
+  const Armature armature = sized_armature(39, true);
   const Rig rig(armature);
   std::vector<Vector3> heads;
   std::vector<Quaternion> rotations;
@@ -83,6 +118,8 @@ TEST(RigHeld, CarriesTheHipsToWhereTheSkeletonRests) {
       matrix_at(armature.world, 0) * matrix_at({carried.begin(), carried.end()}, 0) * matrix_at(armature.rest, 5);
   EXPECT_LT((heads[3] - hips.topRightCorner<3, 1>()).norm(), 1e-9);
   EXPECT_LT(rotations[3].angularDistance(rotation_of(hips)), 1e-9);
+  EXPECT_NEAR(std::cbrt(matrix_at({carried.begin(), carried.end()}, 0).topLeftCorner<3, 3>().determinant()), 3.63,
+              1e-9);
 }
 
 TEST_P(RigChannels, MoveOnlyTheHipsAndTheFirstBone) {

@@ -57,6 +57,11 @@ void check_bones(const Armature& armature) {
   for (const auto& [bone, place] : armature.held) {
     if (seen.count(bone) == 0) fail("held bone '" + bone + "'", "the armature has no such bone");
   }
+  for (const auto& [bone, size] : armature.sizes) {
+    if (seen.count(bone) == 0) fail("size of bone '" + bone + "'", "the armature has no such bone");
+    if (!(size > kRounding) || !std::isfinite(size))
+      fail("bone '" + bone + "'", "is " + std::to_string(size) + " times as large");
+  }
 }
 
 /// On which bone each hangs: its parent, where nothing else is said.
@@ -173,7 +178,8 @@ Rig::Rig(Armature armature)
     : armature_(checked(std::move(armature))),
       rise_(stretch_upwards(armature_.world.data())),
       object_(parse_object(armature_.world.data(), "armature")),
-      rest_(parse_rest(armature_)),
+      sizes_(parse_sizes(armature_)),
+      rest_(sized(parse_rest(armature_), armature_, sizes_)),
       local_(in_parents(rest_, armature_.parents)),
       held_(parse_held(armature_)),
       hangs_(hanging(armature_)),
@@ -213,6 +219,28 @@ std::vector<Rig::Rigid> Rig::parse_held(const Armature& armature) {
   return held;
 }
 
+std::vector<double> Rig::parse_sizes(const Armature& armature) {
+  std::vector<double> sizes;
+  for (std::size_t b = 0; b < armature.names.size(); ++b) {
+    const auto found = armature.sizes.find(armature.names[b]);
+    const double own = found == armature.sizes.end() ? 1 : found->second;
+    sizes.push_back(armature.parents[b] < 0 ? own : own * sizes[armature.parents[b]]);
+  }
+  return sizes;
+}
+
+/// Bones at rest, each as far from its parent as that is large.
+std::vector<Rig::Rigid> Rig::sized(const std::vector<Rigid>& rest, const Armature& armature,
+                                   const std::vector<double>& sizes) {
+  if (armature.sizes.empty()) return rest;
+  std::vector<Rigid> sized = rest;
+  for (std::size_t b = 0; b < rest.size(); ++b) {
+    const int parent = armature.parents[b];
+    if (parent >= 0) sized[b].head = sized[parent].head + sizes[parent] * (rest[b].head - rest[parent].head);
+  }
+  return sized;
+}
+
 std::vector<Rig::Rigid> Rig::in_parents(const std::vector<Rigid>& rest, const std::vector<int>& parents) {
   std::vector<Rigid> local = rest;
   for (std::size_t b = 0; b < rest.size(); ++b) {
@@ -239,7 +267,7 @@ Skeleton Rig::make_tree(int root, const std::vector<Rigid>& rest, std::vector<in
     tree.parents.push_back(b == root ? -1 : index[parent]);
     tree.rest_rotations.push_back(local[b].rotation);
     tree.offsets.emplace_back(object_.scale * local[b].head);
-    tree.tips.emplace_back(0, object_.scale * armature_.lengths[b], 0);
+    tree.tips.emplace_back(0, object_.scale * sizes_[b] * armature_.lengths[b], 0);
   }
   tree.offsets[0] = object_.rigid.head + object_.rigid.rotation * tree.offsets[0];
   tree.rest_rotations[0] = object_.rigid.rotation * tree.rest_rotations[0];
@@ -293,10 +321,11 @@ std::array<double, 16> Rig::carried() const {
   const int hips = skeleton_bones_[skeleton().roles.hips];
   const Rigid held = held_pose(skeleton())[hips];
   const Quaternion turn = held.rotation * rest_[hips].rotation.conjugate();
+  const Vector3 head = RowMajor(&armature_.rest[16 * static_cast<std::size_t>(hips)]).topRightCorner<3, 1>();
   std::array<double, 16> matrix{};
   Eigen::Map<Eigen::Matrix<double, 4, 4, Eigen::RowMajor>> carried(matrix.data());
-  carried.topLeftCorner<3, 3>() = turn.toRotationMatrix();
-  carried.topRightCorner<3, 1>() = held.head - turn * rest_[hips].head;
+  carried.topLeftCorner<3, 3>() = sizes_[hips] * turn.toRotationMatrix();
+  carried.topRightCorner<3, 1>() = held.head - sizes_[hips] * (turn * head);
   carried(3, 3) = 1;
   return matrix;
 }
@@ -337,9 +366,16 @@ Quaternion Rig::location_axes(int bone, const Rigid* pose) const {
   return armature_.local_location[bone] ? above * local_[bone].rotation : above;
 }
 
+/// Locations are as large as the parent.
+double Rig::location_unit(int bone) const {
+  const int parent = armature_.parents[bone];
+  return parent < 0 ? 1 : sizes_[parent];
+}
+
 Rig::Rigid Rig::moved(int bone, const Rigid* pose, const Vector3& location, const Quaternion& rotation) const {
   const Rigid base = unmoved(bone, pose);
-  return {base.head + location_axes(bone, pose) * location, (base.rotation * rotation).normalized()};
+  return {base.head + location_unit(bone) * (location_axes(bone, pose) * location),
+          (base.rotation * rotation).normalized()};
 }
 
 // ---- To clips
@@ -422,7 +458,7 @@ void Rig::store_rotation(int bone, const Rigid* pose, int frame, Channels& chann
 }
 
 void Rig::store_location(int bone, const Rigid* pose, int frame, Channels& channels) const {
-  const Vector3 shift = pose[bone].head - unmoved(bone, pose).head;
+  const Vector3 shift = (pose[bone].head - unmoved(bone, pose).head) / location_unit(bone);
   store_vector(location_axes(bone, pose).conjugate() * shift, &channels.locations[3 * offset_of(frame, bones(), bone)]);
 }
 

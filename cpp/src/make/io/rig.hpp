@@ -24,6 +24,8 @@ struct Armature {
   std::map<std::string, std::string> hangs = {};
   /// Bone -> the location (x, y, z) and rotation (w, x, y, z) that it is held at, as in Channels.
   std::map<std::string, std::array<double, 7>> held = {};
+  /// Bone -> how many times as large as it rests it is posed, with all its descendants.
+  std::map<std::string, double> sizes = {};
 };
 
 /// What an animation keys: per frame each bone's location and rotation relative to its rest in its parent.
@@ -37,24 +39,24 @@ struct Channels {
 /// the hips, in world metres; bones of other trees are as they are held, else at rest. An armature that its object
 /// stretches along the vertical moves as it is without that: heights of skeleton, clips and poses are rise() times as
 /// great in the world. A bone that hangs on another than its parent is there in the skeleton, at its place at rest, and
-/// its channels are such that it keeps that. The skeleton rests as its bones are held; but what is below the hips is
-/// not turned so, as clips say how it is. Legs without feet reach to the height of the object's origin. A bone that
-/// Blender connects to its parent ignores its location: the hips and the first bone must not be connected, for
-/// take_channels no bone.
+/// its channels are such that it keeps that. The skeleton rests as its bones are held, and as large; but what is below
+/// the hips is not turned so, as clips say how it is. Legs without feet reach to the height of the object's origin. A
+/// bone that Blender connects to its parent ignores its location: the hips and the first bone must not be connected,
+/// for take_channels no bone.
 class Rig {
  public:
   /// Throws std::invalid_argument on wrong sizes or order, on rest matrices that are not rigid, on a world matrix whose
   /// scale is not positive and, but for a hundredth and along the vertical, uniform (naming it), on roles or bones that
-  /// do not exist or lie in different trees, on a bone that hangs on one that it moves, and on one that is held as
-  /// nothing can be.
+  /// do not exist or lie in different trees, on a bone that hangs on one that it moves, and on one that is held as, or
+  /// is as large as, nothing can be.
   explicit Rig(Armature armature);
 
   int bones() const { return static_cast<int>(armature_.names.size()); }
   const Skeleton& skeleton() const { return kinematics_.skeleton(); }
   /// The armature's bone that each of the skeleton's is.
   const std::vector<int>& skeleton_bones() const { return skeleton_bones_; }
-  /// What takes the hips, and what they carry, from the armature's rest to where they are held, in the armature's
-  /// space. Row-major [4, 4].
+  /// What takes the hips, and what they carry, from the armature's rest to where they are held and as large as they are
+  /// then, in the armature's space. Row-major [4, 4].
   std::array<double, 16> carried() const;
   /// How much taller the object makes it than it makes it wide; 1 but for a hundredth.
   double rise() const { return rise_; }
@@ -94,6 +96,9 @@ class Rig {
   Object parse_object(const double* matrix, const std::string& label) const;
   static std::vector<Rigid> parse_rest(const Armature& armature);
   static std::vector<Rigid> parse_held(const Armature& armature);
+  static std::vector<double> parse_sizes(const Armature& armature);
+  static std::vector<Rigid> sized(const std::vector<Rigid>& rest, const Armature& armature,
+                                  const std::vector<double>& sizes);
   static std::vector<Rigid> in_parents(const std::vector<Rigid>& rest, const std::vector<int>& parents);
   Skeleton make_tree(int root, const std::vector<Rigid>& rest, std::vector<int>& members) const;
   Skeleton choose_tree(std::vector<int>& members) const;
@@ -106,6 +111,7 @@ class Rig {
   /// Forward kinematics in the armature's space; `pose` holds the bone's parent.
   Rigid unmoved(int bone, const Rigid* pose) const;
   Quaternion location_axes(int bone, const Rigid* pose) const;
+  double location_unit(int bone) const;
   Rigid moved(int bone, const Rigid* pose, const Vector3& location, const Quaternion& rotation) const;
 
   Clip empty_clip(const std::string& name, double rate, int frames) const;
@@ -117,12 +123,13 @@ class Rig {
 
   Armature armature_;
   double rise_;
-  Object object_;             // not stretched
-  std::vector<Rigid> rest_;   // in the armature's space
-  std::vector<Rigid> local_;  // in the parent at rest
-  std::vector<Rigid> held_;   // away from rest
-  std::vector<int> hangs_;    // on which bone each does: by default its parent
-  std::vector<int> order_;    // all bones, each after its parent and the one that it hangs on
+  Object object_;              // not stretched
+  std::vector<double> sizes_;  // times as large as it rests, with all above it
+  std::vector<Rigid> rest_;    // in the armature's space, so large
+  std::vector<Rigid> local_;   // in the parent at rest
+  std::vector<Rigid> held_;    // away from rest
+  std::vector<int> hangs_;     // on which bone each does: by default its parent
+  std::vector<int> order_;     // all bones, each after its parent and the one that it hangs on
   std::vector<int> skeleton_bones_;
   Kinematics kinematics_;
 };
