@@ -79,12 +79,14 @@ Clip new_clip(const Skeleton& skeleton, const std::string& name, double rate, co
 }
 
 /// The clip on the way that its feet tell, at `speed` m/s or, where that is 0, as fast as they tell; and how fast that
-/// is, m/s.
+/// is, m/s: 0 where they tell none, and it goes straight ahead.
 std::optional<std::tuple<Clip, double>> led_by_feet(const Clip& clip, const Skeleton& skeleton, double speed) {
   const Kinematics kinematics(skeleton);
-  const std::optional<FeetWay> way = find_feet_way(kinematics, clip);
+  std::optional<FeetWay> way = find_feet_way(kinematics, clip);
+  const double found = way ? way->mean.norm() : 0;
+  if (!way && speed > 0) way = way_ahead(kinematics, clip, speed);
   if (!way) return std::nullopt;
-  const double found = way->mean.norm(), faster = speed > 0 && found > 0 ? speed / found : 1;
+  const double faster = speed > 0 && found > 0 ? speed / found : 1;
   return std::tuple(without_held_end(led(kinematics, clip, *way, faster)), found);
 }
 
@@ -218,6 +220,13 @@ void bind_clip(py::module_& m) {
             return without_gil([&] { return led_by_feet(clip, skeleton, speed); });
           },
           py::arg("skeleton"), py::arg("speed") = 0.0)
+      .def(
+          "may_go",
+          [](const Clip& clip, const Skeleton& skeleton) {
+            check_bones(clip, skeleton);
+            return without_gil([&] { return may_go(Kinematics(skeleton), clip); });
+          },
+          py::arg("skeleton"))
       .def(
           "discontinuities",
           [](const Clip& clip, const Skeleton& skeleton) {

@@ -285,7 +285,11 @@ class Clip:
         """With those fingers that rest in all of it as in a pose's rotations [B,4], which are as in Clip."""
     def led_by_feet(self, skeleton: Skeleton, speed: float = 0.0) -> tuple[Clip, float] | None:
         """Of a clip on the spot, whose feet tread while the hips stay: the clip on the way that its feet tell, and how
-        fast they go, m/s. `speed`: how fast it shall go, 0 .. 1000 m/s; 0: as its feet do. None of any other clip."""
+        fast they go, m/s. `speed`: how fast it shall go, 0 .. 1000 m/s; 0: as its feet do. Where they tell nothing it
+        goes straight ahead at `speed`, and 0 is how fast they go. None of any other clip."""
+    def may_go(self, skeleton: Skeleton) -> bool:
+        """Whether a clip whose feet tell no way may be a gait all the same: a cycle on the spot in which they, or where
+        it has none the bone that does most, go about as fast as a body does that moves."""
     def discontinuities(self, skeleton: Skeleton) -> list[int]:
         """The frames that no body gets to from the frame before, in order: as after a calibration pose, or where one
         motion follows another in a file; none in a closed cycle."""

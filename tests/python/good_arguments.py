@@ -188,6 +188,7 @@ def good_arguments(folder: Path) -> dict[str, dict[str, Any]]:
         "Clip.world_transforms": {"self": walk, "skeleton": skeleton},
         "Clip.with_fingers": {"self": clips[0], "skeleton": skeleton, "pose": skeleton.rest_rotations},
         "Clip.led_by_feet": {"self": walk, "skeleton": skeleton, "speed": 0.0},
+        "Clip.may_go": {"self": walk, "skeleton": skeleton},
         "Clip.discontinuities": {"self": walk, "skeleton": skeleton},
         "Clip.character_frames": {"self": walk, "skeleton": skeleton},
         "mirrored": {"skeleton": skeleton, "clips": clips[:1]},

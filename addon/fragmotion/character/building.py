@@ -19,7 +19,7 @@ from ..mocap import actions
 from ..mocap.curve_points import read_once
 from ..mocap.doctor import tell_ground, tell_size
 from ..mocap.hands import hand_pose, with_hands
-from ..mocap.on_the_spot import lead_by_feet
+from ..mocap.on_the_spot import lead_by_feet, say_untold
 from ..mocap.sampling import rig_as_posed, sample_parts
 from ..mocap.styles import grouped, style_of
 from ..recordings.traces import make_traces
@@ -182,6 +182,7 @@ def _sample_all(
     if hovering:
         more = f" ({len(hovering) - 1} more do, too)" if len(hovering) > 1 else ""
         warnings.append(f"In {hovering[0]}, as Mend does in Doctor, or it is learned so{more}")
+    warnings.extend(say_untold(takes))
     others = external_motion(obj)
     if others:
         warnings.append(f"The takes were learned as Blender shows them, moved also by {'; '.join(others)}")

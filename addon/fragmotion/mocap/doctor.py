@@ -21,6 +21,9 @@ DUPLICATE = "duplicate"
 IN_PLACE = "in_place"
 """The code of a finding that the take goes on the spot."""
 
+UNTOLD = "untold_speed"
+"""The code of a finding that the take may go, on the spot, but its feet do not tell how fast."""
+
 _GROUND, _UNIT = "ground", "unit"  # findings' codes
 _SIZE = "character_size"  # that of what is wrong with the armature, not with the take
 WAIT = 0.1

@@ -10,7 +10,7 @@ import bpy
 import numpy as np
 
 from ..compat.core import command
-from .doctor import IN_PLACE, tell_anew
+from .doctor import IN_PLACE, UNTOLD, tell_anew
 from .left_out import source_of
 from .sampling import sample_times
 
@@ -20,6 +20,10 @@ if TYPE_CHECKING:
 else:
     led_by_feet, part_of = command("takes").led_by_feet, command("takes").part_of
 
+_UNTOLD = (
+    "On the spot, and its feet do not tell how fast it goes: it is learned so, or as if it went ahead at the Speed "
+    "that you give"
+)
 _PARTS = "in_place_parts"  # the code of a finding that parts of a take go on the spot
 
 
@@ -30,13 +34,15 @@ def lead_by_feet(
     that follow each other in one Action are parts of it, each on its own way."""
     times = sample_times(scene, obj, action)
     ways = [led_by_feet(clip, skeleton, action.fragmotion.speed) for clip in clips]
-    speeds = [way[0].speed for way in ways if _is_whole(way) and way[0].speed]
+    speeds = [way[0].speed for way in ways if _is_whole(way) and way[0].speed and way[0].by_feet]
     parts = [
         (_first(clip, times) + led.first, led)
         for clip, way in zip(clips, ways)
         for led in way
         if led.speed and not _is_whole(way)
     ]
+    untold = [clip for clip, way in zip(clips, ways) if _is_untold(clip, way, skeleton)]
+    tell_anew(action, UNTOLD, "info", _UNTOLD if untold else "")
     tell_anew(action, IN_PLACE, "info", _said(max(speeds)) if speeds else "", mendable=True)
     tell_anew(action, _PARTS, "info", _said_of_parts(parts, times) if parts else "")
     return [clip for whole, way in zip(clips, ways) for clip in _clips(whole, way, action.name, skeleton, times)]
@@ -44,6 +50,27 @@ def lead_by_feet(
 
 def _is_whole(way: Sequence[Led]) -> bool:
     return len(way) == 1 and way[0].first == 0
+
+
+def _is_untold(clip: Clip, way: Sequence[Led], skeleton: Skeleton) -> bool:
+    """Whether it may go, and its feet do not tell how fast."""
+    return _is_whole(way) and (not way[0].by_feet or (not way[0].speed and clip.may_go(skeleton)))
+
+
+def say_untold(actions: Sequence[bpy.types.Action]) -> list[str]:
+    """Which of these Actions may go, and stay on the spot, as neither their feet nor the user tells how fast."""
+    names = [
+        f"'{action.name}'"
+        for action in actions
+        if not action.fragmotion.speed and any(row.code == UNTOLD for row in action.fragmotion.findings)
+    ]
+    if not names:
+        return []
+    more = f" and {len(names) - 1} more" if len(names) > 1 else ""
+    return [
+        f"{names[0]}{more} is learned on the spot, as its feet do not tell how fast it goes: if it is a gait, give its "
+        "Speed in Doctor, and Build again"
+    ]
 
 
 def _clips(whole: Clip, way: Sequence[Led], name: str, skeleton: Skeleton, times: Doubles) -> list[Clip]:

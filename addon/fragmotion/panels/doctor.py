@@ -11,7 +11,7 @@ import bpy
 from ..compat.core import command
 from ..mocap.actions import chosen
 from ..mocap.comparing import source_of
-from ..mocap.doctor import DUPLICATE, IN_PLACE, TakeFinding
+from ..mocap.doctor import DUPLICATE, IN_PLACE, UNTOLD, TakeFinding
 from ..operators.base.context import active_armature
 from ..settings.drawing import draw_wrapped
 from .sidebar import SubPanel
@@ -45,7 +45,7 @@ class FRAGMOTION_PT_doctor(SubPanel, bpy.types.Panel):
             text = with_more([each.text for each in alike]) + (" (mended)" if row.mended else "")
             column = self.layout.column(align=True)
             draw_wrapped(column, context, text, "CHECKMARK" if row.mended else LIGHTS[row.severity])
-            if row.code == IN_PLACE and not row.mended:
+            if row.code in (IN_PLACE, UNTOLD) and not row.mended:
                 column.prop(action.fragmotion, "speed")
             if row.mendable and not row.mended:
                 label = "Untick" if row.code == DUPLICATE else "Mend"

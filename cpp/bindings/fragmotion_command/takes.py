@@ -28,11 +28,12 @@ class FileTake(NamedTuple):
 
 class Led(NamedTuple):
     """A clip or a part of one, from its frame `first` on, on the way that its feet tell, m/s; 0 where they tell
-    none."""
+    none. Not `by_feet`: straight ahead at a speed that was given, as they tell none."""
 
     first: int
     clip: core.Clip
     speed: float
+    by_feet: bool = True
 
 
 def read_take(path: Path, unit: float = UNIT) -> core.Take:
@@ -161,8 +162,9 @@ def _brought_over(takes: Sequence[FileTake], skeleton: core.Skeleton, known: Seq
 
 
 def led_by_feet(clip: core.Clip, skeleton: core.Skeleton, speed: float = 0) -> list[Led]:
-    """The clip; one that goes on the spot on the way that its feet tell, at `speed` m/s where that is told. One that
-    holds several motions end to end, some of which go on the spot, in its parts."""
+    """The clip; one that goes on the spot on the way that its feet tell, at `speed` m/s where that is told, and
+    straight ahead at that where they tell none. One that holds several motions end to end, some of which go on the
+    spot, in its parts."""
     ends = [*clip.discontinuities(skeleton), len(clip.root_positions)]
     parts = [slice(*span) for span in zip([0, *ends], ends) if span[1] - span[0] >= _FEWEST]
     if len(ends) > 1:
@@ -174,7 +176,7 @@ def led_by_feet(clip: core.Clip, skeleton: core.Skeleton, speed: float = 0) -> l
 
 def _led(first: int, part: core.Clip, skeleton: core.Skeleton, speed: float) -> Led:
     way = part.led_by_feet(skeleton, speed)
-    return Led(first, *way) if way else Led(first, part, 0)
+    return Led(first, way[0], way[1] or speed, way[1] > 0) if way else Led(first, part, 0)
 
 
 def part_of(clip: core.Clip, skeleton: core.Skeleton, name: str, part: slice) -> core.Clip:

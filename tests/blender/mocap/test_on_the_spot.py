@@ -9,7 +9,7 @@ import bpy
 import making
 import numpy as np
 import pytest
-from mathutils import Matrix
+from mathutils import Matrix, Quaternion
 
 GAITS = ("walk forward", "run forward")
 
@@ -156,6 +156,45 @@ def test_legs_of_a_single_bone_lead_a_character_everywhere(addon: ModuleType, fi
     assert character.skeleton.roles["left_foot"] == "leg-left"
     steps = 2 * bpy.context.scene.render.fps / np.array([24, 18])  # a second
     assert character.space.speeds == pytest.approx(steps * 2 * 0.4 * np.sin([0.4, 0.7]), rel=0.1)
+
+
+def make_ghost() -> bpy.types.Object:
+    """A figure without legs, whose cloak and head wave in a cycle."""
+    obj: bpy.types.Object = making.add_armature(
+        [
+            ("root", None, (0, 0, 0.4), (0, 0, 0.6)),
+            ("torso", "root", (0, 0, 0.6), (0, 0, 1.2)),
+            ("head", "torso", (0, 0, 1.2), (0, 0, 1.5)),
+            ("cloak", "root", (0, 0, 0.4), (0, 0.5, 0.1)),
+        ]
+    )
+    for frame in range(25):
+        wave = np.sin(2 * np.pi * frame / 24)
+        for name, angle in (("torso", 0.05), ("head", 0.1), ("cloak", 0.6)):
+            bone = obj.pose.bones[name]
+            bone.rotation_quaternion = Quaternion((1, 0, 0), angle * wave)
+            bone.keyframe_insert("rotation_quaternion", frame=frame)
+    obj.animation_data.action.fragmotion.use = True
+    return obj
+
+
+def test_what_has_no_feet_goes_ahead_at_the_speed_that_the_user_tells(
+    addon: ModuleType, capfd: pytest.CaptureFixture[str]
+) -> None:
+    obj = make_ghost()
+    action, asks = obj.animation_data.action, "give its Speed in Doctor"
+    assert bpy.ops.fragmotion.build("EXEC_DEFAULT") == {"FINISHED"}
+    assert asks in capfd.readouterr().out
+    assert obj.fragmotion.figures.abilities == addon.character.abilities.NOTHING
+    assert [row.code for row in action.fragmotion.findings if row.code == "untold_speed"]
+    action.fragmotion.speed = 2
+    assert addon.character.staleness.is_stale(obj)
+    assert bpy.ops.fragmotion.build("EXEC_DEFAULT") == {"FINISHED"}
+    assert asks not in capfd.readouterr().out
+    character, core = addon.character.building.load(obj), addon.compat.core.core
+    assert min(abs(speed - 2) for speed in character.space.speeds) < 0.2
+    path = core.Player(character, 1).run(np.tile((0, 2, 0, 0), (60, 1)), 30).path
+    assert np.linalg.norm(path[-1, :2] - path[90, :2]) == pytest.approx(2 * 3, rel=0.2)
 
 
 def test_motions_that_follow_each_other_in_one_action_go_each_on_its_own_way(addon: ModuleType) -> None:

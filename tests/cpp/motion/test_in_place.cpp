@@ -132,6 +132,37 @@ TEST(FeetWay, IsNoneOfWhatGoesOrStands) {
   EXPECT_FALSE(find_feet_way(kinematics, gait_clip({0, 0, 1})));
 }
 
+TEST(WayAhead, IsStraightAheadWhateverTheFeetDo) {
+  Skeleton footless = humanoid();
+  footless.roles.left_foot = footless.roles.right_foot = -1;
+  const Kinematics kinematics(footless);
+  const Clip clip = on_the_spot(footless, gait_clip({0, 1.2, 0, 1, 30}));
+  EXPECT_FALSE(find_feet_way(kinematics, clip));
+  const auto way = way_ahead(kinematics, clip, 3);
+  ASSERT_TRUE(way);
+  EXPECT_NEAR(way->mean.x(), 0, 0.05);
+  EXPECT_NEAR(way->mean.y(), 3, 0.05);
+  EXPECT_NEAR(way_of_hips(led(kinematics, clip, *way)), 3 * 24 / 30., 0.1);
+  EXPECT_FALSE(way_ahead(kinematics, gait_clip({0, 1.2}), 3)) << "it goes by itself";
+}
+
+TEST(MayGo, SayCyclesOnTheSpotThatAreNoStands) {
+  Skeleton footless = humanoid();
+  footless.roles.left_foot = footless.roles.right_foot = -1;
+  for (const Skeleton& skeleton : {humanoid(), footless}) {
+    const Kinematics kinematics(skeleton);
+    EXPECT_TRUE(may_go(kinematics, on_the_spot(skeleton, gait_clip({0, 1.2, 0, 1, 30}))));
+    EXPECT_FALSE(may_go(kinematics, on_the_spot(skeleton, gait_clip({0, 0, 0, 1, 30}))));
+    EXPECT_FALSE(may_go(kinematics, gait_clip({0, 1.2, 0, 1, 30})));
+    Clip part = on_the_spot(skeleton, gait_clip({0, 1.2, 0, 1, 30}));
+    part.frames = part.frames * 2 / 3;
+    part.root_positions.resize(std::size_t{3} * part.frames);
+    part.rotations.resize(std::size_t{4} * part.frames * skeleton.size());
+    part.headings.resize(part.frames);
+    EXPECT_FALSE(may_go(kinematics, part)) << "no cycle";
+  }
+}
+
 TEST(FeetWay, LeadsACycleIntoItself) {
   const Kinematics kinematics(humanoid());
   const Clip clip = on_the_spot(kinematics.skeleton(), gait_clip({0, 1.2, 0, 1, 30}));

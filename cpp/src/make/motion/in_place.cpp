@@ -96,7 +96,48 @@ std::optional<FeetWay> way_of(const Kinematics& kinematics, const Clip& clip) {
   return fore ? std::optional(halfway(*way, *fore)) : std::nullopt;
 }
 
+// The mean speed of each bone's end, seen from the hips, m/s.
+std::vector<double> bone_speeds(const Kinematics& kinematics, const Clip& clip) {
+  const std::size_t bones = kinematics.bones(), hips = kinematics.skeleton().roles.hips;
+  std::vector<double> gone(bones, 0);
+  std::vector<Vector3> heads(bones), ends(bones), before;
+  std::vector<Quaternion> rotations(bones);
+  for (int f = 0; f < clip.frames; ++f) {
+    kinematics.world(load_vector(&clip.root_positions[std::size_t{3} * f]), &clip.rotations[4 * bones * f],
+                     heads.data(), rotations.data());
+    for (std::size_t b = 0; b < bones; ++b) {
+      ends[b] = heads[b] - heads[hips] + rotations[b] * kinematics.skeleton().tips[b];
+      if (f > 0) gone[b] += (ends[b] - before[b]).norm();
+    }
+    before = ends;
+  }
+  for (double& way : gone) way *= clip.rate / std::max(clip.frames - 1, 1);
+  return gone;
+}
+
 }  // namespace
+
+std::optional<FeetWay> way_ahead(const Kinematics& kinematics, const Clip& clip, double speed) {
+  if (!stays(clip, standard_scale(kinematics.skeleton()))) return std::nullopt;
+  Vector2 facing = Vector2::Zero();
+  for (const double heading : clip.headings) facing += Eigen::Rotation2Dd(heading) * Vector2::UnitY();
+  FeetWay way;
+  way.velocities.assign(clip.frames - 1, facing.norm() > 0 ? Vector2(speed * facing.normalized()) : facing);
+  way.mean = seen_mean(way.velocities, clip);
+  return way;
+}
+
+bool may_go(const Kinematics& kinematics, const Clip& clip) {
+  const Skeleton& skeleton = kinematics.skeleton();
+  const double scale = standard_scale(skeleton);
+  if (!stays(clip, scale) || cycle_of(kinematics, clip) == 0) return false;
+  const std::vector<double> speeds = bone_speeds(kinematics, clip);
+  double fastest = 0;
+  const std::vector<LegRoles> legs = legs_with_feet(skeleton.roles);
+  for (const LegRoles& leg : legs) fastest = std::max(fastest, speeds[leg.foot]);
+  if (legs.empty()) fastest = *std::max_element(speeds.begin(), speeds.end());
+  return fastest * gait_scale(scale) > kMoving;
+}
 
 std::optional<FeetWay> find_feet_way(const Kinematics& kinematics, const Clip& held) {
   const Clip clip = without_held_end(held);

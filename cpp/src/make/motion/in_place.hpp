@@ -25,6 +25,14 @@ struct FeetWay {
 /// the other, in each step as far as they open. The frame rate tells nothing (Treading).
 std::optional<FeetWay> find_feet_way(const Kinematics& kinematics, const Clip& clip);
 
+/// Straight ahead at `speed` m/s, where the clip faces on the mean, whatever its feet do; nothing where the hips
+/// travel.
+std::optional<FeetWay> way_ahead(const Kinematics& kinematics, const Clip& clip, double speed);
+
+/// Whether a clip whose way is not found may be a gait all the same: a cycle on the spot in which its feet, or where it
+/// has none the bone that does most, go about as fast as a body does that moves.
+bool may_go(const Kinematics& kinematics, const Clip& clip);
+
 /// [frames] where the way takes the clip's place: what was at x and y is at frame.position + R(frame.heading) (x, y).
 /// All is `faster` times as fast.
 std::vector<CharacterFrame> placements(const FeetWay& way, const Clip& clip, double faster = 1);
