@@ -11,7 +11,7 @@
 #include "base/ranges.hpp"
 #include "base/rates.hpp"
 #include "fragments/body_tips.hpp"
-#include "runtime/inertialization.hpp"
+#include "runtime/player.hpp"
 
 namespace fragmotion {
 namespace {
@@ -97,8 +97,8 @@ Motion join(const Skeleton& skeleton, const Motion& first, int end, const Motion
   const Vector2 faster = end > 0 ? stitch.begin(old, onward(pose_at(first, end - 1), old), fresh,
                                                 beginning > 0 ? onward(carried_pose(beginning - 1), fresh)
                                                               : carried_pose(std::min(1, second.frames() - 1)),
-                                                apart, kJoined / kUnseen)
-                                 : stitch.begin(old, old, fresh, fresh, apart, kJoined / kUnseen);
+                                                apart, kStitch)
+                                 : stitch.begin(old, old, fresh, fresh, apart, kStitch);
   Motion joined = first;
   resize(joined, end + second.frames() - beginning);
   for (int f = 1; beginning + f < second.frames(); ++f) {

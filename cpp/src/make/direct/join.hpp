@@ -5,9 +5,6 @@
 
 namespace fragmotion {
 
-/// Seconds after which a joined motion shows, seen from the character frame, what its second part showed.
-constexpr double kJoined = 0.8;
-
 /// The first motion's frames 0 .. `end` to the bit, and then the second's after frame `beginning`, which is taken for
 /// the moment of `end`: carried to where the character is and faces then, at the velocity that it has, and stitched
 /// (inertialization.hpp). Throws std::invalid_argument as check_motion(), unless the rates are the same, and on frames
