@@ -4,11 +4,11 @@
 
 #include "base/rounding.hpp"
 #include "skeleton/body_shape.hpp"
+#include "skeleton/two_bone_ik.hpp"
 
 namespace fragmotion {
 namespace {
 
-constexpr double kStiff = 0.05;   // rad that a joint bends by at least in a motion, if it is one
 constexpr double kAsLong = 0.75;  // of a bone's length, that another one of its limb has which is about as long
 constexpr double kNarrow = 0.25;  // of the way from arm to arm over the collars, that collars are apart at most
 
@@ -46,7 +46,7 @@ class LimbShaper {
     const auto& [left, right] = pair.chains;
     std::vector<bool> parts(std::min(left.size(), right.size()), false);
     for (std::size_t i = 1; shape_.moves() && i + 1 < parts.size(); ++i) {
-      parts[i] = bends(left, i) < kStiff && bends(right, i) < kStiff;
+      parts[i] = bends(left, i) < kBends && bends(right, i) < kBends;
     }
     return parts;
   }
