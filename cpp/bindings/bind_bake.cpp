@@ -10,11 +10,12 @@
 #include "bake/loop.hpp"
 #include "bake/reduce_keys.hpp"
 #include "bake/resample.hpp"
+#include "base/ranges.hpp"
 
 namespace fragmotion::bindings {
 namespace {
 
-constexpr double kMostPlace = 1e9, kMostTime = 1e6, kMostRate = 1000;  // m and rad, s, frames a second
+constexpr double kMostTime = 1e6, kMostRate = 1000;  // s, frames a second
 
 Motion to_motion(const Doubles& root_positions, const Doubles& rotations, const Doubles& path) {
   check_shape(path, "path", {-1, 3});
@@ -22,8 +23,8 @@ Motion to_motion(const Doubles& root_positions, const Doubles& rotations, const 
   check_shape(rotations, "rotations", {path.shape(0), -1, 4});
   if (path.shape(0) < 1 || rotations.shape(1) < 1)
     throw std::invalid_argument("a motion has a frame and a bone at least");
-  return {0, to_vector(root_positions, "root_positions", -kMostPlace, kMostPlace),
-          to_vector(rotations, "rotations", -2, 2), to_vector(path, "path", -kMostPlace, kMostPlace)};
+  return {0, to_vector(root_positions, "root_positions", -kFarthestPlace, kFarthestPlace),
+          to_vector(rotations, "rotations", -2, 2), to_vector(path, "path", -kFarthestPlace, kFarthestPlace)};
 }
 
 py::tuple to_tuple(Motion motion) {
@@ -43,7 +44,7 @@ py::tuple bound_carried(const Doubles& root_positions, const Doubles& rotations,
   const Motion motion = to_motion(root_positions, rotations, path);
   checked_bone(motion, hips);
   check_shape(to, "to", {motion.frames(), 3});
-  return to_tuple(carried(motion, hips, to_vector(to, "to", -kMostPlace, kMostPlace)));
+  return to_tuple(carried(motion, hips, to_vector(to, "to", -kFarthestPlace, kFarthestPlace)));
 }
 
 py::tuple bound_looped(const Doubles& root_positions, const Doubles& rotations, const Doubles& path, int hips,
