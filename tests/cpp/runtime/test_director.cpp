@@ -3,11 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <utility>
 #include <vector>
 
+#include "base/rates.hpp"
 #include "runtime/player.hpp"
 #include "small_character.hpp"
 #include "steering.hpp"
@@ -110,6 +112,31 @@ TEST(Player, JumpsOnceInAStepOfAnyLength) {
   };
   const Vector3 expected = place(183);
   for (const int steps : {1, 2, 7}) EXPECT_LT((place(steps) - expected).norm(), 0.02) << steps;
+}
+
+// How often the foot comes down that came down last, as a body that goes so fast is told to jump at some moment.
+int comes_down_again(double speed, double moment) {
+  Player player(gait_character());
+  std::array<bool, 2> stood{};
+  int last = -1, again = 0;
+  for (double t = 0; t < moment + 1.5; t += kGameStep) {
+    player.step({0, speed, 0, t > moment && t < moment + 0.2 ? 1.0 : 0.0}, kGameStep);
+    for (int side = 0; side < 2; ++side) {
+      const bool stands = player.standing_feet()[side].has_value();
+      if (stands && !std::exchange(stood[side], stands)) again += std::exchange(last, side) == side && t > 1 ? 1 : 0;
+      stood[side] = stands;
+    }
+  }
+  return again;
+}
+
+TEST(Player, JumpsOffTheFootWhoseTurnItIs) {
+  const ControlSpace& space = gait_character()->space;
+  for (const double speed : {space.walk(), space.run()}) {
+    int again = 0;
+    for (double moment = 1.5; moment < 2.5; moment += 0.04) again += comes_down_again(speed, moment);
+    EXPECT_LE(again, 2) << speed;
+  }
 }
 
 // The act that is drawn for a control where a class has two, whose fragments visibly do this.

@@ -22,6 +22,7 @@
 #include "fragments/standing.hpp"
 #include "fragments/successors.hpp"
 #include "motion/contacts.hpp"
+#include "motion/foot_paths.hpp"
 #include "motion/legs.hpp"
 
 namespace fragmotion {
@@ -346,11 +347,13 @@ class Synthesizer {
   }
 
   // A gait that begins with frame `first` of a cycle, whose flight in a hop ends on the foot that did not take off:
-  // legs in the air get there kTurnsAtMost times as fast as steps may follow each other.
+  // legs in the air get there kTurnsAtMost times as fast as steps may follow each other. A foot that only touches the
+  // ground as the body takes off does not bear it.
   Clip landing_in_turn(Clip clip, const Gait& gait, int first, const Hop& hop) const {
     const double take_off = hop.crouch() * clip.rate, flight = hop.flight() * clip.rate;
-    const int down = next_foot_down(gait.contacts, gait.begin, gait.end, first + static_cast<int>(take_off),
-                                    static_cast<int>(kTurnsAtMost * kMostTempo * flight));
+    const int bears = first + static_cast<int>(take_off - kShortestContact * clip.rate),
+              last = first + static_cast<int>(take_off) + static_cast<int>(kTurnsAtMost * kMostTempo * flight);
+    const int down = next_foot_down(gait.contacts, gait.begin, gait.end, bears, last - bears);
     return down < 0 ? clip : gait_in_flight(kinematics_, clip, take_off, take_off + flight, down - first);
   }
 

@@ -9,8 +9,6 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kSpeedShare = 0.2, kShortest = 0.06;
-
 double speed_at(const std::vector<Vector3>& path, int f, double rate) {
   const int last = static_cast<int>(path.size()) - 1, a = std::max(0, f - 1), b = std::min(last, f + 1);
   return (path[b] - path[a]).norm() * rate / (b - a);
@@ -69,7 +67,7 @@ std::vector<bool> foot_contacts(const FootPath& path, const FootHeights& floor, 
     };
     flags[f] = stands(path.ball, floor.ball) || stands(path.heel, floor.heel);
   }
-  const int frames = static_cast<int>(std::ceil(kShortest * rate));
+  const int frames = static_cast<int>(std::ceil(kShortestContact * rate));
   close_short_runs(flags, false, frames);
   const std::vector<bool> all = flags;
   close_short_runs(flags, true, frames);

@@ -73,6 +73,12 @@ int Director::look_up_class(int playing, const Control& wanted) const {
   return (*policy_)(playing, space.nearest(asked));
 }
 
+// Of a jump, that with which it would begin after one more step: off the other foot.
+int Director::class_after(int next, const Control& wanted) const {
+  if (!wanted.jumps()) return look_up_class(next, wanted);
+  return look_up_class(look_up_class(class_, {wanted.x, wanted.y, wanted.turn, 0}), wanted);
+}
+
 int Director::bridge_between(int previous, int next) const {
   return character_->bridges[static_cast<std::size_t>(previous) * character_->classes.count + next];
 }
@@ -121,13 +127,12 @@ bool Director::leaves_early(const Control& wanted, bool changes, const Playback&
 }
 
 // Where what plays is left in the middle of a step, or at the end of its take, the class that the table gives may begin
-// with the wrong foot: then the one that follows it is entered. Or it is left at its end, where its take does what is
+// with the wrong foot: then the one after it is entered. Or it is left at its end, where its take does what is
 // wanted by itself.
 Exit Director::plan_exit(const Control& wanted, const Playback& playback, const FragmentSelector& selector,
                          bool only_now) const {
-  const int next = look_up_class(class_, wanted), after = look_up_class(next, wanted);
-  const bool may_skip =
-      after != next && !wanted.jumps() && bridge_between(class_, next) < 0 && bridge_between(class_, after) < 0;
+  const int next = look_up_class(class_, wanted), after = class_after(next, wanted);
+  const bool may_skip = after != next && bridge_between(class_, next) < 0 && bridge_between(class_, after) < 0;
   const TransitionWeights& weights = selector.weights();
   const Control& told = character_->pool.fragments[character_->classes.representatives[next]].evident;
   const double haste = haste_ * weights.wait * character_->space.distance(playback.evident(), told);

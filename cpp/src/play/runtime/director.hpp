@@ -56,6 +56,7 @@ class Director {
   bool leaves_early(const Control& wanted, bool changes, const Playback& playback, const FragmentSelector& selector);
   bool has_changed(const Control& wanted) const;
   int look_up_class(int playing, const Control& wanted) const;
+  int class_after(int next, const Control& wanted) const;
   int bridge_between(int previous, int next) const;
   bool is_planned(const Control& wanted) const;
   Exit plan_exit(const Control& wanted, const Playback& playback, const FragmentSelector& selector,
