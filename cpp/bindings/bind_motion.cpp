@@ -10,6 +10,7 @@
 #include "motion/fingers.hpp"
 #include "motion/in_place.hpp"
 #include "motion/mirror.hpp"
+#include "motion/one_floor.hpp"
 #include "motion/told_by_motion.hpp"
 #include "skeleton/kinematics.hpp"
 
@@ -126,6 +127,12 @@ std::vector<Clip> mirrored(const Skeleton& skeleton, const std::vector<Clip>& cl
   std::vector<Clip> images;
   for (const Clip& clip : clips) images.push_back(mirror(clip));
   return images;
+}
+
+std::vector<Clip> on_one_floor(const Skeleton& skeleton, std::vector<Clip> clips) {
+  for (const Clip& clip : clips) check_bones(clip, skeleton);
+  put_level_on_one_floor(Kinematics(skeleton), clips);
+  return clips;
 }
 
 void bind_take(py::module_& m) {
@@ -249,6 +256,7 @@ void bind_motion(py::module_& m) {
   bind_four_legs(m);
   bind_clip(m);
   m.def("mirrored", &mirrored, py::arg("skeleton"), py::arg("clips"), py::call_guard<GilRelease>());
+  m.def("on_one_floor", &on_one_floor, py::arg("skeleton"), py::arg("clips"), py::call_guard<GilRelease>());
 }
 
 }  // namespace fragmotion::bindings

@@ -302,6 +302,10 @@ def mirrored(skeleton: Skeleton, clips: Sequence[Clip]) -> list[Clip]:
     is told by the rest pose where that is symmetric, else by the clips' mean pose. ValueError where a clip has not the
     skeleton's number of bones."""
 
+def on_one_floor(skeleton: Skeleton, clips: Sequence[Clip]) -> list[Clip]:
+    """The clips as a build learns them: level where the studio's floor rises, and moved up or down onto one floor.
+    ValueError where a clip has not the skeleton's number of bones."""
+
 def role_doubts(
     skeleton: Skeleton, roles: dict[str, str] | None = None, skin: Skin | None = None
 ) -> list[tuple[str, str, str]]:

@@ -192,6 +192,7 @@ def good_arguments(folder: Path) -> dict[str, dict[str, Any]]:
         "Clip.discontinuities": {"self": walk, "skeleton": skeleton},
         "Clip.character_frames": {"self": walk, "skeleton": skeleton},
         "mirrored": {"skeleton": skeleton, "clips": clips[:1]},
+        "on_one_floor": {"skeleton": skeleton, "clips": clips[:1]},
         "Body": {
             "skeleton": human,
             "clips": [strolling],

@@ -187,7 +187,8 @@ def test_unseen_takes_are_as_like_the_unseen_takes_as_can_be(likeness: Likeness,
     """Takes in place of what a player shows, as many frames as it would."""
     unseen = [each.raw for each in likeness._unseen.poses]
     names = {clip.name for clip in likeness.seen.clips}
-    others = [clip for clip in walking_clips(skeleton) if clip.name not in names]
+    takes = core.on_one_floor(skeleton, walking_clips(skeleton))
+    others = [clip for clip in takes if clip.name not in names]
     clips = [*others, *core.mirrored(skeleton, others)]
     assert len(unseen) == len(clips) == len(likeness.traces(core.ControlSpace()))
     found = likeness.of(clips)
@@ -196,6 +197,14 @@ def test_unseen_takes_are_as_like_the_unseen_takes_as_can_be(likeness: Likeness,
     assert all(found[name] == likeness.takes[name] for name in ("left_right", "ball_under", "ball_travel"))
     other = likeness.of([core.Clip(skeleton, "", 30, *walking_arrays(1.2, 0, 3.0)) for _ in clips])
     assert (other["frechet"] or 0) > 0.01 and (other["nearest"] or 0) > 1
+
+
+def test_takes_that_were_captured_lower_stand_on_the_others_floor(skeleton: core.Skeleton) -> None:
+    takes = walking_clips(skeleton)
+    down = np.array([0, 0, 0.03])
+    lower = core.Clip(skeleton, "lower", takes[1].rate, takes[1].root_positions - down, takes[1].rotations)
+    level, found = (core.on_one_floor(skeleton, [*takes, extra])[-1] for extra in (takes[1], lower))
+    np.testing.assert_allclose(found.root_positions, level.root_positions, atol=1e-3)
 
 
 def test_a_stitch_stays_where_the_fragment_goes_on_in_its_take(character: core.Character) -> None:

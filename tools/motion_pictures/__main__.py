@@ -8,6 +8,8 @@ import sys
 import time
 from pathlib import Path
 
+import fragmotion_core as core
+
 from tools.measuring.blend import read_moves, read_styles
 from tools.motion_pictures.actor import open_blend, open_folder
 from tools.motion_pictures.motions import Feet
@@ -26,6 +28,7 @@ def draw(takes: Path, folder: Path) -> None:
     if takes.suffix == ".blend":
         _draw_styles(takes, folder / "styles.jpg")
     actor, clips = open_blend(takes) if takes.suffix == ".blend" else open_folder(takes)
+    clips = core.on_one_floor(actor.rig.skeleton, clips)
     cast, feet = Cast(actor.rig.skeleton, clips), Feet(actor.rig.skeleton, clips)
     for movement in MOVEMENTS:
         path, rows = folder / f"{movement.name}.jpg", cast.rows(movement)

@@ -99,9 +99,7 @@ FragmentPool captured_pool(const Kinematics& kinematics, const std::vector<Clip>
   std::vector<Clip> captured =
       parallel_map(takes, threads, [&](int c) { return in_rounds(kinematics, make_clip(skeleton, clips[c])); });
   face_ahead(kinematics, captured);
-  std::vector<Contacts> contacts =
-      parallel_map(takes, threads, [&](int c) { return put_level(kinematics, captured[c]); });
-  put_on_one_floor(captured, contacts);
+  std::vector<Contacts> contacts = put_level_on_one_floor(kinematics, captured, threads);
   std::vector<std::vector<int>> seams;
   cut(pool, std::move(captured), contacts, Origin::captured, options, seams);
   if (pool.fragments.empty()) {

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/decompositions.hpp"
+#include "base/parallel.hpp"
 #include "base/quantile.hpp"
 #include "base/turn_between.hpp"
 #include "motion/soles.hpp"
@@ -139,6 +140,13 @@ void put_on_one_floor(std::vector<Clip>& clips, std::vector<Contacts>& contacts)
     const double over = height_over(usual, contacts[c]);
     if (std::isfinite(over)) lower(over, clips[c], contacts[c]);
   }
+}
+
+std::vector<Contacts> put_level_on_one_floor(const Kinematics& kinematics, std::vector<Clip>& clips, int threads) {
+  std::vector<Contacts> contacts =
+      parallel_map(static_cast<int>(clips.size()), threads, [&](int c) { return put_level(kinematics, clips[c]); });
+  put_on_one_floor(clips, contacts);
+  return contacts;
 }
 
 }  // namespace fragmotion

@@ -26,4 +26,7 @@ Contacts put_level(const Kinematics& kinematics, Clip& clip);
 /// that whoever tiptoes or lies is not pushed into the ground; of a body on four legs the balls alone.
 void put_on_one_floor(std::vector<Clip>& clips, std::vector<Contacts>& contacts);
 
+/// The one and then the other, of takes as a build learns them; returns their contacts.
+std::vector<Contacts> put_level_on_one_floor(const Kinematics& kinematics, std::vector<Clip>& clips, int threads = 1);
+
 }  // namespace fragmotion

@@ -51,13 +51,14 @@ class Likeness:
     def __init__(self, recordings: Recordings) -> None:
         self._body = body_of(recordings.skeleton)
         order = np.random.default_rng(_SPLIT).permutation(len(recordings.clips))
-        halves = [[recordings.clips[i] for i in sorted(half)] for half in np.array_split(order, 2)]
+        clips = core.on_one_floor(recordings.skeleton, recordings.clips)
+        halves = [[clips[i] for i in sorted(half)] for half in np.array_split(order, 2)]
         self.seen = Recordings(recordings.skeleton, halves[0])
         own, self._unseen = (_part(self._body, half) for half in halves)
         if not own.poses or not self._unseen.poses:
             raise ValueError(f"that takes two halves of takes that are longer than {_SHORTEST:g} s")
         self._floor = motion.floor_of(self._body, own.poses)
-        self._fastest = motion.fastest_turns(_all_poses(self._body, recordings.clips))
+        self._fastest = motion.fastest_turns(_all_poses(self._body, clips))
         self._own, unseen = _windows(self._body, own), _windows(self._body, self._unseen)
         known = np.concatenate(self._own)
         self._mean = known.mean(0)
