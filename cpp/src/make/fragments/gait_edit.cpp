@@ -83,16 +83,17 @@ Clip transformed(const Kinematics& kinematics, const Legs& legs, const Clip& cli
   return part(result, before, result.frames - 1);
 }
 
-int next_foot_down(const Contacts& contacts, int begin, int end, int after, int within) {
+int next_foot_down(const Contacts& contacts, int begin, int end, int after, int within, int touch) {
   if (contacts.feet[0].empty()) return -1;
   const auto stands = [&](int side, int f) { return contacts.feet[side][frame_of(f, begin, end)]; };
   const auto strikes = [&](int side, int f) { return stands(side, f) && !stands(side, f - 1); };
   const int length = std::abs(end - begin);
   int last = -1, found = -1;
-  for (int f = after - length + 1; f <= after; ++f) {
+  const int came = after - touch;
+  for (int f = came - length + 1; f <= came; ++f) {
     for (int side = 0; side < 2; ++side) last = strikes(side, f) ? side : last;
   }
-  for (int f = after + 1; last >= 0 && f <= after + within; ++f) {
+  for (int f = came + 1; last >= 0 && f <= after + within; ++f) {
     if (!strikes(1 - last, f)) continue;
     int alone = f;
     while (alone < f + length && stands(last, alone)) ++alone;

@@ -26,8 +26,8 @@ Clip transformed(const Kinematics& kinematics, const Legs& legs, const Clip& cli
 
 /// Of a motion that goes round and round frames begin .. end of a clip with these contacts: the last of the `within`
 /// frames following number `after` in which the foot comes down whose turn it then is, or has come down and stands
-/// alone. -1: there is none.
-int next_foot_down(const Contacts& contacts, int begin, int end, int after, int within);
+/// alone. A foot that came down less than `touch` frames before `after` has not come down yet. -1: there is none.
+int next_foot_down(const Contacts& contacts, int begin, int end, int after, int within, int touch = 0);
 
 /// A clip whose body goes the same way at the same time, but whose gait gets only from its pose at `take_off` to that
 /// at `down` until `landing`, all in frames, and goes on from there as before: so that the foot lands whose turn it is.

@@ -351,9 +351,9 @@ class Synthesizer {
   // ground as the body takes off does not bear it.
   Clip landing_in_turn(Clip clip, const Gait& gait, int first, const Hop& hop) const {
     const double take_off = hop.crouch() * clip.rate, flight = hop.flight() * clip.rate;
-    const int bears = first + static_cast<int>(take_off - kShortestContact * clip.rate),
-              last = first + static_cast<int>(take_off) + static_cast<int>(kTurnsAtMost * kMostTempo * flight);
-    const int down = next_foot_down(gait.contacts, gait.begin, gait.end, bears, last - bears);
+    const int off = static_cast<int>(take_off), bears = static_cast<int>(take_off - kShortestContact * clip.rate);
+    const int down = next_foot_down(gait.contacts, gait.begin, gait.end, first + off,
+                                    static_cast<int>(kTurnsAtMost * kMostTempo * flight), off - bears);
     return down < 0 ? clip : gait_in_flight(kinematics_, clip, take_off, take_off + flight, down - first);
   }
 
