@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <cstring>
 
 #include "base/rounding.hpp"
 #include "base/vectorised.hpp"
@@ -35,9 +36,19 @@ Quaternion rotation_towards(const Vector2& direction) {
   return {w, 0, 0, std::copysign(z, sine)};
 }
 
-/// Four numbers side by side: x, y, z and, of a rotation, w; as they are in memory, which may lie anywhere.
+/// Four numbers side by side: x, y, z and, of a rotation, w.
 using Four = double __attribute__((vector_size(32)));
-using StoredFour = double __attribute__((vector_size(32), aligned(8), may_alias));
+
+/// Those that lie anywhere in memory.
+[[gnu::always_inline]] inline Four load_four(const double* numbers) {
+  Four four;
+  std::memcpy(&four, numbers, sizeof(four));
+  return four;
+}
+
+[[gnu::always_inline]] inline void store_four(const Four& four, double* numbers) {
+  std::memcpy(numbers, &four, sizeof(four));
+}
 
 template <int kA, int kB, int kC, int kD>
 [[gnu::always_inline]] inline Four ordered(const Four& v) {
@@ -132,17 +143,16 @@ FRAGMOTION_VECTORISED void Kinematics::world_below(const Vector3& root_position,
   const int hips = skeleton.roles.hips;
   heads[hips] = root_position;
   orientations[hips] = load_quaternion(rotations + std::ptrdiff_t{4} * hips);
-  const auto turn_of = [&](int b) { return reinterpret_cast<StoredFour*>(orientations[b].coeffs().data()); };
-  Four head = four(root_position), turn = *turn_of(hips);
+  const auto turn_of = [&](int b) { return orientations[b].coeffs().data(); };
+  Four head = four(root_position), turn = load_four(turn_of(hips));
   int last = hips;
   for (const int b : bones) {
     const int parent = skeleton.parents[b];
-    if (parent != last) head = four(heads[parent]), turn = *turn_of(parent);
-    const Four offset = *reinterpret_cast<const StoredFour*>(parts_->offsets[b].data()),
-               wxyz = *reinterpret_cast<const StoredFour*>(rotations + std::ptrdiff_t{4} * b);
+    if (parent != last) head = four(heads[parent]), turn = load_four(turn_of(parent));
+    const Four offset = load_four(parts_->offsets[b].data()), wxyz = load_four(rotations + std::ptrdiff_t{4} * b);
     attach(offset, wxyz, head, turn);
     heads[b] = {head[0], head[1], head[2]};
-    *turn_of(b) = turn;
+    store_four(turn, turn_of(b));
     last = b;
   }
 }
