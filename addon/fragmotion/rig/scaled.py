@@ -36,11 +36,11 @@ def _sizes(obj: bpy.types.Object, actions: Sequence[bpy.types.Action]) -> Iterat
     for bone in obj.data.bones:
         path = bone_path(bone.name, "scale")
         least, most = min(scales[path]), max(scales[path])
+        if path in driven or least <= 0 or most - least > _UNIFORM * least or abs(most - 1) <= _UNIFORM:
+            continue
         below = bone.children_recursive
         carries = 2 * (len(below) + 1) >= len(obj.data.bones)
-        if least <= 0 or most - least > _UNIFORM * least or abs(most - 1) <= _UNIFORM or not carries:
-            continue
-        if path not in driven and not any(each.inherit_scale in _NOT_PASSED_ON for each in below):
+        if carries and not any(each.inherit_scale in _NOT_PASSED_ON for each in below):
             yield bone.name, (least + most) / 2
 
 

@@ -2,31 +2,13 @@
 #pragma once
 
 #include <array>
-#include <map>
 #include <string>
 #include <vector>
 
+#include "io/armature.hpp"
 #include "motion/clip.hpp"
 
 namespace fragmotion {
-
-/// An armature as an animation package stores it (Blender's conventions). Matrices are row-major.
-struct Armature {
-  std::vector<std::string> names;
-  std::vector<int> parents;            ///< Parents before children; -1 where a bone has none, which several may.
-  std::vector<double> rest;            ///< [bones, 4, 4]: rest matrices in the armature's space, y along the bone
-  std::vector<double> lengths;         ///< [bones]: along y, in the armature's units; far too long: shortened
-  std::vector<double> world;           ///< [4, 4]: the object's matrix; its scale makes metres of the armature's units
-  std::vector<bool> inherit_rotation;  ///< [bones], or empty: all true
-  std::vector<bool> local_location;    ///< [bones], or empty: all true
-  std::map<std::string, std::string> roles;  ///< Role ("hips", "left_foot" ...) -> bone, over what the names tell
-  /// Bone -> the bone that it moves with, though it is the child of another: a foot that is the target of a leg's IK.
-  std::map<std::string, std::string> hangs = {};
-  /// Bone -> the location (x, y, z) and rotation (w, x, y, z) that it is held at, as in Channels.
-  std::map<std::string, std::array<double, 7>> held = {};
-  /// Bone -> how many times as large as it rests it is posed, with all its descendants.
-  std::map<std::string, double> sizes = {};
-};
 
 /// What an animation keys: per frame each bone's location and rotation relative to its rest in its parent.
 struct Channels {

@@ -9,6 +9,8 @@
 namespace fragmotion {
 namespace {
 
+constexpr double kSpeedShare = 0.2;
+
 double speed_at(const std::vector<Vector3>& path, int f, double rate) {
   const int last = static_cast<int>(path.size()) - 1, a = std::max(0, f - 1), b = std::min(last, f + 1);
   return (path[b] - path[a]).norm() * rate / (b - a);

@@ -12,9 +12,8 @@ namespace fragmotion {
 /// m over its floor, of a 1.8 m character, under which a ball or a heel may stand on it.
 constexpr double kContactHeight = 0.045;
 
-/// Of the hips' speed: by so much faster than kStandingSpeed a foot may be that stands on the ground; and s of the
-/// shortest contact: one that is shorter only touches it.
-constexpr double kSpeedShare = 0.2, kShortestContact = 0.06;
+/// s of a contact: a foot that is on the ground for less only touches it.
+constexpr double kShortestContact = 0.06;
 
 /// The path of a foot's ball, its lower end, and of its heel, the foot's head: [frames] m. Both are the end of a leg
 /// without a foot.
