@@ -102,8 +102,8 @@ void check(const ControlLayout& layout) {
 ControlSpace::ControlSpace(double walk, double run, double turn_rate, double scale, ControlWeights weights)
     : ControlSpace(ControlLayout(), {walk, run}, turn_rate, scale, weights) {}
 
-ControlSpace::ControlSpace(const ControlLayout& layout, std::vector<double> speeds, double turn_rate, double scale,
-                           ControlWeights weights)
+[[gnu::cold]] ControlSpace::ControlSpace(const ControlLayout& layout, std::vector<double> speeds, double turn_rate,
+                                         double scale, ControlWeights weights)
     : layout_(layout), speeds_(std::move(speeds)), turn_rate_(turn_rate), scale_(scale), weights_(weights) {
   check(layout);
   require(static_cast<int>(speeds_.size()) == layout.speeds, "number of speeds", static_cast<double>(speeds_.size()),

@@ -30,7 +30,7 @@ Vector2 StepEdit::moved(const Vector2& from_hips, double heading) const {
   return turn * stride * turn.transpose() * from_hips + turn * shift;
 }
 
-FootLock::Body::Body(const Kinematics& kinematics, const Legs& legs, const FeetConstants& constants)
+[[gnu::cold]] FootLock::Body::Body(const Kinematics& kinematics, const Legs& legs, const FeetConstants& constants)
     : constants(constants),
       kinematics(kinematics),
       legs(legs),

@@ -116,7 +116,7 @@ double tip_reach(const Skeleton& skeleton) {
   return sum * standard_scale(skeleton);
 }
 
-BodyTips::BodyTips(const Skeleton& skeleton)
+[[gnu::cold]] BodyTips::BodyTips(const Skeleton& skeleton)
     : kinematics_(skeleton),
       bones_(measured_bones(skeleton)),
       scale_(standard_scale(skeleton)),
@@ -148,7 +148,7 @@ void BodyTips::write(const CharacterFrame& frame, float* rows, int stride, int o
   }
 }
 
-TipWriter::TipWriter(const Skeleton& skeleton)
+[[gnu::cold]] TipWriter::TipWriter(const Skeleton& skeleton)
     : kinematics_(skeleton),
       measured_(measured_bones(skeleton)),
       chains_(kinematics_.chains(measured_)),

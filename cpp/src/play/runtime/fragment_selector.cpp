@@ -242,7 +242,8 @@ Exit FragmentSelector::best_exit(const std::array<Exit, 2>& classes, const Contr
                                  double haste, Exit best, bool only_now) const {
   const double seconds = playback.seconds(), rest = playback.left();
   const Left left{playback.fragment(), playback.contacts()};
-  auto& [long_before, before, now] = workspace_->tips;
+  auto& tips = workspace_->tips;
+  BodyTips *long_before = &tips[0], *before = &tips[1], *now = &tips[2];
   std::array<float, 2> known{};
   for (std::size_t i = 0; i < classes.size(); ++i) {
     known[i] = std::numeric_limits<float>::infinity();
@@ -255,11 +256,11 @@ Exit FragmentSelector::best_exit(const std::array<Exit, 2>& classes, const Contr
   };
   const auto may_gain = [&](double wait) { return known[0] < most(0, wait) || known[1] < most(1, wait); };
   if (!may_gain(0)) return best;
-  pose_tips(playback, seconds - kEntry, long_before);
+  pose_tips(playback, seconds - kEntry, *long_before);
   StepSequence steps = playback.steps();
   for (double wait = 0; may_gain(wait); wait = std::min(wait + kMomentsApart, rest)) {
-    if (wait == rest) pose_tips(playback, seconds + wait - kEntry, long_before);
-    extrapolate(pose_tips(playback, seconds + wait, now), long_before, now);
+    if (wait == rest) pose_tips(playback, seconds + wait - kEntry, *long_before);
+    extrapolate(pose_tips(playback, seconds + wait, *now), *long_before, *now);
     if (wait > 0) steps.advance(playback.standing_feet(seconds + wait), kMomentsApart);
     for (std::size_t i = 0; i < classes.size(); ++i) {
       if (classes[i].next_class < 0) continue;
@@ -268,7 +269,7 @@ Exit FragmentSelector::best_exit(const std::array<Exit, 2>& classes, const Contr
       if (cost < limit) best = {classes[i].next_class, seconds + wait, cost + (classes[i].cost + haste * wait)};
     }
     if (wait >= rest || (only_now && best.seconds > seconds)) break;
-    if (wait == 0) pose_tips(playback, seconds - kMomentsApart, before);
+    if (wait == 0) pose_tips(playback, seconds - kMomentsApart, *before);
     std::swap(long_before, before);
     std::swap(before, now);
   }
