@@ -145,6 +145,43 @@ void bring_the_foot_there(const Skeleton& skeleton) {
 TEST(Reach, BringsTheFootThereAndLeavesItsRotation) { bring_the_foot_there(humanoid()); }
 TEST(Reach, BringsTheEndOfALegWithoutAFootThere) { bring_the_foot_there(on_shins()); }
 
+// Both legs of a pose at once, and one after the other, to places near their ankles and far away.
+void reach_with_both(const Skeleton& skeleton) {
+  const Kinematics kinematics(skeleton);
+  const Clip clip = gait_clip({1.2, 0, 0});
+  const Legs legs = find_legs(kinematics, {clip});
+  Random random(7);
+  for (int n = 0; n < 200; ++n) {
+    PosedBones posed(skeleton.size());
+    const int f = random.below(clip.frames);
+    world(kinematics, clip, f, posed.heads.data(), posed.rotations.data());
+    std::array<Vector3, 2> ankles;
+    for (int side = 0; side < 2; ++side) {
+      const Vector3 way{random.uniform() - 0.5, random.uniform() - 0.5, random.uniform() - 0.5};
+      ankles[side] = ankle_of(legs[side], posed) + (n % 3 == 0 ? 2 : 0.2) * way;
+    }
+    const auto begin = clip.rotations.begin() + std::ptrdiff_t{4} * skeleton.size() * f;
+    std::vector<double> together(begin, begin + std::ptrdiff_t{4} * skeleton.size()), apart = together;
+    const Reach within[] = {{0.3, 0.7}, {0.4, 0.8}};
+    const bool bounded = n % 2 == 0;
+    reach(skeleton, {&legs[0], &legs[1]}, posed, ankles, together.data(), bounded ? within : nullptr);
+    EXPECT_NE(together, apart);
+    for (int side = 0; side < 2; ++side) {
+      if (bounded) {
+        reach(skeleton, legs[side], posed, ankles[side], within[side], apart.data());
+      } else {
+        reach(skeleton, legs[side], posed, ankles[side], apart.data());
+      }
+    }
+    EXPECT_EQ(together, apart) << n;
+  }
+}
+
+TEST(Reach, DoesWithTwoLegsWhatItDoesWithEach) {
+  reach_with_both(humanoid());
+  reach_with_both(on_shins());
+}
+
 // A standing leg whose knee is bent further by an angle, before it reaches for where its foot is, and after.
 struct BentLeg {
   Skeleton skeleton = humanoid();

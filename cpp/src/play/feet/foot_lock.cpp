@@ -222,9 +222,9 @@ void FootLock::apply(WorldPose& pose, const Contacts& contacts, const Frames& fr
   fresh_ = false;
   sunk_ += (strained - sunk_) * filters.sinks;
   pose.root.z() -= sunk_;
-  for (int side = 0; side < count; ++side) {
-    ankles[side].z() += sunk_;  // seen from hips that have not sunk
-    reach(skeleton, legs[side], posed, ankles[side], pose.rotations.data());
+  for (int side = 0; side < count; ++side) ankles[side].z() += sunk_;  // seen from hips that have not sunk
+  for (int side = 0; side < count; side += 2) {
+    reach(skeleton, {&legs[side], &legs[side + 1]}, posed, {ankles[side], ankles[side + 1]}, pose.rotations.data());
   }
 }
 

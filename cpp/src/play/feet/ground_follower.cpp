@@ -74,14 +74,15 @@ void GroundFollower::apply(WorldPose& pose, const FeetAhead& feet, double second
   std::array<Vector3, 2> ankles{place_foot(0, feet[0]), place_foot(1, feet[1])};
   sink(feet, ankles, since);
   lower_hips(hips_.sunk(), pose.root, posed);
+  std::array<Reach, 2> within;
   for (int side = 0; side < 2; ++side) {
     raise_heel(side, ankles[side]);
     unfold(side, ankles[side]);
     turn_foot(kinematics.skeleton(), legs[side], heels_[side] * turns_[side], turns_[side], posed,
               pose.rotations.data());
-    const Reach within{shortest(legs[side], posed), longest(legs[side], posed)};
-    reach(kinematics.skeleton(), legs[side], posed, ankles[side], within, pose.rotations.data());
+    within[side] = {shortest(legs[side], posed), longest(legs[side], posed)};
   }
+  reach(kinematics.skeleton(), {&legs[0], &legs[1]}, posed, ankles, pose.rotations.data(), within.data());
 }
 
 // Feet stand exactly on ground that is not level: the less level, the more, so that rounding of its faces is not seen.

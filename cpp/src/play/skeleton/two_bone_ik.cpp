@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/pair.hpp"
 #include "base/rounding.hpp"
 #include "base/turn_between.hpp"
 
@@ -32,98 +33,135 @@ double apart(double now, double wanted) {
 
 double square(double value) { return value * value; }
 
-// The rotation about a unit axis by an angle that is told by its cosine and its sine.
-Quaternion rotation(const Vector3& axis, double cosine, double sine) {
-  if (1 + cosine <= kFloatRounding) return Quaternion{Eigen::AngleAxisd(std::atan2(sine, cosine), axis)};
-  const double w = std::sqrt((1 + cosine) / 2), along = sine / (2 * w);
-  return {w, along * axis.x(), along * axis.y(), along * axis.z()};
+// The rotation about a unit axis by half a turn, or nearly so.
+[[gnu::cold]] Quaternion half_turn(const Vector3& axis, double cosine, double sine) {
+  return Quaternion{Eigen::AngleAxisd(std::atan2(sine, cosine), axis)};
 }
 
-// A knee that is bent about a hinge.
-class Knee {
- public:
-  Knee(const Vector3& upper, const Vector3& lower, const Vector3& hinge)
-      : upper_(upper.squaredNorm()),
-        axis_((hinge - dot(hinge, upper) / upper_ * upper).normalized()),
-        beside_(square(dot(lower, axis_))),
-        across_(std::max(kFloatRounding * kFloatRounding, lower.squaredNorm() - beside_)),
-        length_(std::sqrt(upper_) + std::sqrt(beside_ + across_)),
-        twice_(2 * std::sqrt(upper_ * across_)),
-        cosine_(2 * dot(upper, lower) / twice_),
-        sine_(2 * dot(axis_, upper.cross(lower)) / twice_) {}
+// Rotations about unit axes by angles that are told by their cosines and their sines.
+TurnPair rotations(const VectorPair& axes, const Pair& cosine, const Pair& sine) {
+  const Pair w = root((1 + cosine) / 2), along = sine / (2 * w);
+  TurnPair turns{w, along * axes.x, along * axes.y, along * axes.z};
+  for (int i = 0; i < 2; ++i) {
+    if (1 + cosine[i] <= kFloatRounding) turns.set(i, half_turn(axes[i], cosine[i], sine[i]));
+  }
+  return turns;
+}
+
+// How a knee is bent. Squares of lengths, m: of the upper leg, and of the lower one along the knee's axis and across
+// it.
+struct Bend {
+  double upper, beside, across, length, twice, cosine, sine;
 
   // How far apart the leg's ends come that would be `wanted`, m: wanted near to where it is, it may go as the knee
   // does.
-  double ends(double wanted) const {
-    const double now = distance(cosine_), natural = bends_well() ? now : distance(std::cos(bearable()));
-    wanted /= length_;
+  [[gnu::noinline]] double ends(double wanted) const {
+    const double now = distance(cosine), natural = bends_well() ? now : distance(std::cos(bearable()));
+    wanted /= length;
     wanted += std::max(0.0, 1 - std::abs(wanted - now) / kRest) * (natural - now);
-    return length_ * apart(natural, wanted);
+    return length * apart(natural, wanted);
   }
 
   // The same of an arm, which may be bent as it is; a straight one stays so by as much as `weight` is below 1.
   double ends_of_arm(double wanted, double weight) const {
-    wanted /= length_;
-    const double as_it_is = apart(distance(cosine_), wanted);
-    return std::max(folded_up(), length_ * (as_it_is + weight * (softly(wanted) - as_it_is)));
+    wanted /= length;
+    const double as_it_is = apart(distance(cosine), wanted);
+    return std::max(folded_up(), length * (as_it_is + weight * (softly(wanted) - as_it_is)));
   }
 
   // How near the leg's ends come, m: as near as they are, or as where it resists being folded up.
-  double folded_up() const { return length_ * std::min(distance(cosine_), distance(kFoldsWell)); }
-
-  // What turns it back to where it is if it is bent backward, by this share.
-  Quaternion backward(double share) const {
-    return Quaternion{Eigen::AngleAxisd(share * 2 * std::min(0.0, std::atan2(sine_, cosine_)), axis_)};
-  }
-
-  // What turns the lower leg for the leg's ends to be so far apart.
-  Quaternion bent_by(double ends) const {
-    const double cosine = std::clamp((ends * ends - beside_ - across_ - upper_) / twice_, -1.0, 1.0),
-                 sine = std::sqrt((1 - cosine) * (1 + cosine));
-    return rotation(axis_, cosine * cosine_ + sine * sine_, sine * cosine_ - cosine * sine_);
-  }
+  double folded_up() const { return length * std::min(distance(cosine), distance(kFoldsWell)); }
 
  private:
-  bool bends_well() const { return sine_ > 0 && cosine_ < kBendsWell && cosine_ > kFoldsWell; }
+  bool bends_well() const { return sine > 0 && cosine < kBendsWell && cosine > kFoldsWell; }
 
   // The knee's bend, rad, which neither goes backward nor folds up the leg: a stitch may overshoot.
   double bearable() const {
-    double bend = std::atan2(sine_, cosine_);
+    double bend = std::atan2(sine, cosine);
     if (bend < -kPi / 2) bend += 2 * kPi;  // it is folded further than flat, rather than bent backward
     if (bend > kFolded) return kFolded + kStraight * (1 - std::exp((kFolded - bend) / kStraight));
     return kStraight * std::exp(bend / kStraight - 1);
   }
 
   // Between the leg's ends, in lengths of the leg, by the cosine of the bend.
-  double distance(double cosine) const {
-    return std::sqrt(std::max(0.0, upper_ + across_ + beside_ + twice_ * cosine)) / length_;
+  double distance(double of_cosine) const {
+    return std::sqrt(std::max(0.0, upper + across + beside + twice * of_cosine)) / length;
   }
-
-  double upper_;  // squares of lengths, m: of the upper leg, and of the lower one along the axis and across it
-  Vector3 axis_;
-  double beside_, across_;
-  double length_, twice_, cosine_, sine_;
 };
 
-Knee knee_of(const Leg& leg, const PosedBones& posed) {
-  return {posed.heads[leg.knee] - posed.heads[leg.thigh], ankle_of(leg, posed) - posed.heads[leg.knee],
-          turned(posed.rotations[leg.thigh], leg.hinge)};
+// The knees of two legs, each bent about its hinge.
+class Knees {
+ public:
+  Knees(const VectorPair& upper, const VectorPair& lower, const VectorPair& hinges);
+
+  Bend operator[](int i) const {
+    return {upper_[i], beside_[i], across_[i], length_[i], twice_[i], cosine_[i], sine_[i]};
+  }
+
+  // What turns the first one back to where it is if it is bent backward, by this share.
+  Quaternion backward(double share) const {
+    return Quaternion{Eigen::AngleAxisd(share * 2 * std::min(0.0, std::atan2(sine_[0], cosine_[0])), axes_[0])};
+  }
+
+  // What turns the lower legs for the legs' ends to be so far apart.
+  TurnPair bent_by(const Pair& ends) const;
+
+ private:
+  Pair upper_;
+  VectorPair axes_;
+  Pair beside_, across_, length_, twice_, cosine_, sine_;
+};
+
+[[gnu::noinline]] Knees::Knees(const VectorPair& upper, const VectorPair& lower, const VectorPair& hinges)
+    : upper_(dot(upper, upper)), axes_(hinges - dot(hinges, upper) / upper_ * upper) {
+  Pair length = root(dot(axes_, axes_));
+  for (int i = 0; i < 2; ++i) length[i] = length[i] > 0 ? length[i] : 1;
+  axes_ = axes_ / length;
+  const Pair along = dot(lower, axes_);
+  beside_ = along * along;
+  across_ = dot(lower, lower) - beside_;
+  for (int i = 0; i < 2; ++i) across_[i] = std::max(kFloatRounding * kFloatRounding, across_[i]);
+  length_ = root(upper_) + root(beside_ + across_);
+  twice_ = 2 * root(upper_ * across_);
+  cosine_ = 2 * dot(upper, lower) / twice_;
+  sine_ = 2 * dot(axes_, cross(upper, lower)) / twice_;
 }
 
-// Turns the lower leg by `bend` and swings the leg towards `ankle`; the foot keeps its rotation.
-void bend(const Skeleton& skeleton, const Leg& leg, const PosedBones& posed, const Vector3& to, const Quaternion& bend,
-          double* rotations) {
-  const Vector3 upper = posed.heads[leg.knee] - posed.heads[leg.thigh],
-                lower = ankle_of(leg, posed) - posed.heads[leg.knee];
-  const Quaternion thigh = turn_between(upper + turned(bend, lower), to - posed.heads[leg.thigh]);
-  const auto store = [&](int bone, const Quaternion& parent, const Quaternion& world) {
-    store_quaternion(rounded_off(product(parent.conjugate(), world)), rotations + std::ptrdiff_t{4} * bone);
-  };
-  const auto above = [&](int bone) { return posed.rotations[skeleton.parents[bone]]; };
-  store(leg.thigh, above(leg.thigh), product(thigh, posed.rotations[leg.thigh]));
-  store(leg.knee, above(leg.knee), product(bend, posed.rotations[leg.knee]));
-  if (leg.has_foot()) store(leg.foot, product(thigh, product(bend, above(leg.foot))), posed.rotations[leg.foot]);
+[[gnu::noinline]] TurnPair Knees::bent_by(const Pair& ends) const {
+  Pair cosine = (ends * ends - beside_ - across_ - upper_) / twice_;
+  for (int i = 0; i < 2; ++i) cosine[i] = std::clamp(cosine[i], -1.0, 1.0);
+  const Pair sine = root((1 - cosine) * (1 + cosine));
+  return rotations(axes_, cosine * cosine_ + sine * sine_, sine * cosine_ - cosine * sine_);
 }
+
+// As turn_between() of each.
+TurnPair turns_between(const VectorPair& from, const VectorPair& to) {
+  const Pair product = root(dot(from, from) * dot(to, to)), w = product + dot(from, to);
+  const VectorPair axis = cross(from, to);
+  const Pair square = axis.x * axis.x + axis.y * axis.y + (axis.z * axis.z + w * w), length = root(square);
+  TurnPair turns{w / length, axis.x / length, axis.y / length, axis.z / length};
+  for (int i = 0; i < 2; ++i) {
+    const bool is_plain = product[i] > 0 && !std::isinf(product[i]) && w[i] > kFloatRounding * product[i];
+    if (!is_plain || !(square[i] > 0)) turns.set(i, turn_between(from[i], to[i]));
+  }
+  return turns;
+}
+
+// Places and rotations of the same bone of two legs, and of those above it.
+struct PosedLegs {
+  const Skeleton& skeleton;
+  const LegPair& legs;
+  const PosedBones& posed;
+
+  VectorPair heads(int Leg::*bone) const { return {posed.heads[legs[0]->*bone], posed.heads[legs[1]->*bone]}; }
+  VectorPair ankles() const { return {ankle_of(*legs[0], posed), ankle_of(*legs[1], posed)}; }
+  VectorPair hinges() const { return {legs[0]->hinge, legs[1]->hinge}; }
+  TurnPair turns(int Leg::*bone) const { return {posed.rotations[legs[0]->*bone], posed.rotations[legs[1]->*bone]}; }
+  TurnPair above(int Leg::*bone) const {
+    const std::vector<int>& parents = skeleton.parents;
+    return {posed.rotations[parents[legs[0]->*bone]], posed.rotations[parents[legs[1]->*bone]]};
+  }
+};
 
 // The leg from a thigh to a foot that has a knee between them; none where the thigh carries the body or both legs. What
 // does not hang from the foot is no toe of it.
@@ -207,12 +245,14 @@ double arm_length(const Skeleton& skeleton, const Arm& arm, const PosedBones& po
   return (elbow - posed.heads[arm.upper]).norm() + (palm(skeleton, arm, posed) - elbow).norm();
 }
 
-void reach(const Skeleton& skeleton, const Arm& arm, const PosedBones& posed, const Vector3& place, double weight,
-           const Vector3& halfway, double* rotations) {
+[[gnu::cold]] void reach(const Skeleton& skeleton, const Arm& arm, const PosedBones& posed, const Vector3& place,
+                         double weight, const Vector3& halfway, double* rotations) {
   const Vector3 upper = posed.heads[arm.elbow] - posed.heads[arm.upper],
                 lower = palm(skeleton, arm, posed) - posed.heads[arm.elbow], way = place - posed.heads[arm.upper];
-  const Knee elbow(upper, lower, posed.rotations[arm.upper] * arm.hinge);
-  const Quaternion bend = elbow.backward(1 - weight) * elbow.bent_by(elbow.ends_of_arm(way.norm(), weight)),
+  const Vector3 hinge = posed.rotations[arm.upper] * arm.hinge;
+  const Knees elbow({upper, upper}, {lower, lower}, {hinge, hinge});
+  const double ends = elbow[0].ends_of_arm(way.norm(), weight);
+  const Quaternion bend = elbow.backward(1 - weight) * elbow.bent_by(Pair{ends, ends})[0],
                    swing = turn_between(halfway, way) * turn_between(upper + bend * lower, halfway);
   const auto turn = [&](int bone, const Quaternion& by) {
     const Quaternion& parent = posed.rotations[skeleton.parents[bone]];
@@ -223,7 +263,7 @@ void reach(const Skeleton& skeleton, const Arm& arm, const PosedBones& posed, co
   turn(arm.elbow, bend);
 }
 
-Legs resting_legs(const Skeleton& skeleton) {
+[[gnu::cold]] Legs resting_legs(const Skeleton& skeleton) {
   const std::array<LegRoles, kMostLegs> roles = leg_roles(skeleton.roles);
   Legs legs;
   for (int left = 0; left < kMostLegs; left += 2) {
@@ -261,18 +301,46 @@ double leg_length(const Leg& leg, const PosedBones& posed) {
 double longest(const Leg& leg, const PosedBones& posed) { return kStretched * leg_length(leg, posed); }
 
 double shortest(const Leg& leg, const PosedBones& posed) {
-  return std::min(knee_of(leg, posed).folded_up(), longest(leg, posed));  // a short lower leg hardly folds the leg up
+  const Vector3 upper = posed.heads[leg.knee] - posed.heads[leg.thigh],
+                lower = ankle_of(leg, posed) - posed.heads[leg.knee],
+                hinge = turned(posed.rotations[leg.thigh], leg.hinge);
+  const Knees knee({upper, upper}, {lower, lower}, {hinge, hinge});
+  return std::min(knee[0].folded_up(), longest(leg, posed));  // a short lower leg hardly folds the leg up
+}
+
+// Turns the lower legs and swings the legs towards their ankles; the feet keep their rotations.
+void reach(const Skeleton& skeleton, const LegPair& legs, const PosedBones& posed, const std::array<Vector3, 2>& ankles,
+           double* rotations, const Reach* within) {
+  const PosedLegs pair{skeleton, legs, posed};
+  const VectorPair hips = pair.heads(&Leg::thigh), knees = pair.heads(&Leg::knee), upper = knees - hips,
+                   lower = pair.ankles() - knees, way = VectorPair{ankles[0], ankles[1]} - hips;
+  const TurnPair thighs = pair.turns(&Leg::thigh);
+  const Knees bent(upper, lower, turned(thighs, pair.hinges()));
+  Pair ends = root(dot(way, way));
+  for (int i = 0; i < 2; ++i)
+    ends[i] = within != nullptr ? std::clamp(ends[i], within[i].least, within[i].most) : bent[i].ends(ends[i]);
+  const TurnPair bend = bent.bent_by(ends), swing = turns_between(upper + turned(bend, lower), way);
+  // A shin that is the foot is written again, as the knee.
+  const struct {
+    int Leg::*bone;
+    TurnPair above, world;
+  } turns[] = {{&Leg::foot, product(swing, product(bend, pair.above(&Leg::foot))), pair.turns(&Leg::foot)},
+               {&Leg::thigh, pair.above(&Leg::thigh), product(swing, thighs)},
+               {&Leg::knee, pair.above(&Leg::knee), product(bend, pair.turns(&Leg::knee))}};
+  for (const auto& [bone, above, world] : turns) {
+    const TurnPair local = rounded_off(product(above.conjugate(), world));
+    for (int i = 0; i < 2; ++i) store_quaternion(local[i], rotations + std::ptrdiff_t{4} * (legs[i]->*bone));
+  }
 }
 
 void reach(const Skeleton& skeleton, const Leg& leg, const PosedBones& posed, const Vector3& ankle, double* rotations) {
-  const Knee knee = knee_of(leg, posed);
-  bend(skeleton, leg, posed, ankle, knee.bent_by(knee.ends((ankle - posed.heads[leg.thigh]).norm())), rotations);
+  reach(skeleton, {&leg, &leg}, posed, {ankle, ankle}, rotations);
 }
 
 void reach(const Skeleton& skeleton, const Leg& leg, const PosedBones& posed, const Vector3& ankle, const Reach& within,
            double* rotations) {
-  const double wanted = std::clamp((ankle - posed.heads[leg.thigh]).norm(), within.least, within.most);
-  bend(skeleton, leg, posed, ankle, knee_of(leg, posed).bent_by(wanted), rotations);
+  const Reach both[] = {within, within};
+  reach(skeleton, {&leg, &leg}, posed, {ankle, ankle}, rotations, both);
 }
 
 }  // namespace fragmotion
