@@ -10,6 +10,7 @@
 #include "motion/fingers.hpp"
 #include "motion/in_place.hpp"
 #include "motion/mirror.hpp"
+#include "motion/motions_within.hpp"
 #include "motion/one_floor.hpp"
 #include "motion/told_by_motion.hpp"
 #include "skeleton/kinematics.hpp"
@@ -239,6 +240,16 @@ void bind_clip(py::module_& m) {
           [](const Clip& clip, const Skeleton& skeleton) {
             check_bones(clip, skeleton);
             return without_gil([&] { return discontinuities(skeleton, clip); });
+          },
+          py::arg("skeleton"))
+      .def(
+          "motions_within",
+          [](const Clip& clip, const Skeleton& skeleton) {
+            check_bones(clip, skeleton);
+            const auto found = without_gil([&] { return motions_within(Kinematics(skeleton), clip); });
+            std::vector<std::pair<int, int>> spans;
+            for (const Span& span : found) spans.emplace_back(span.first, span.last + 1);
+            return spans;
           },
           py::arg("skeleton"))
       .def(

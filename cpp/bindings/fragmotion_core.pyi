@@ -293,6 +293,9 @@ class Clip:
     def discontinuities(self, skeleton: Skeleton) -> list[int]:
         """The frames that no body gets to from the frame before, in order: as after a calibration pose, or where one
         motion follows another in a file; none in a closed cycle."""
+    def motions_within(self, skeleton: Skeleton) -> list[tuple[int, int]]:
+        """Of a clip on the spot that holds several motions, one after the other: the frames of its gaits and stands, of
+        each the first and the one after the last; empty where it holds no gait or one motion alone."""
     def character_frames(self, skeleton: Skeleton) -> Doubles:
         """[F,3]: the character frame's x, y and heading (rad, within a half turn; of the hips' thighs, not
         smoothed)."""

@@ -190,6 +190,7 @@ def good_arguments(folder: Path) -> dict[str, dict[str, Any]]:
         "Clip.led_by_feet": {"self": walk, "skeleton": skeleton, "speed": 0.0},
         "Clip.may_go": {"self": walk, "skeleton": skeleton},
         "Clip.discontinuities": {"self": walk, "skeleton": skeleton},
+        "Clip.motions_within": {"self": walk, "skeleton": skeleton},
         "Clip.character_frames": {"self": walk, "skeleton": skeleton},
         "mirrored": {"skeleton": skeleton, "clips": clips[:1]},
         "on_one_floor": {"skeleton": skeleton, "clips": clips[:1]},

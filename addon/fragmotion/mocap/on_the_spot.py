@@ -99,4 +99,7 @@ def _said_of_parts(parts: Sequence[tuple[int, Led]], times: Doubles) -> str:
         f"{times[first]:g} to {times[first + len(led.clip.root_positions) - 1]:g} ({led.speed:.2f} m/s)"
         for first, led in parts
     )
-    return f"Several motions follow each other. Of these go on the spot, and are learned as if they went: frames {told}"
+    return (
+        f"Several motions follow each other. Of these go on the spot, and are learned as if they went: frames {told}. "
+        "What leads from one to the next is not learned; leave out what is no gait and no stand"
+    )

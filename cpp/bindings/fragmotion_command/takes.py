@@ -163,8 +163,11 @@ def _brought_over(takes: Sequence[FileTake], skeleton: core.Skeleton, known: Seq
 
 def led_by_feet(clip: core.Clip, skeleton: core.Skeleton, speed: float = 0) -> list[Led]:
     """The clip; one that goes on the spot on the way that its feet tell, at `speed` m/s where that is told, and
-    straight ahead at that where they tell none. One that holds several motions end to end, some of which go on the
-    spot, in its parts."""
+    straight ahead at that where they tell none. One that holds several motions one after the other, some of which go on
+    the spot, in its parts: what lies between two that have a gap between them is in none."""
+    spans = [] if speed else clip.motions_within(skeleton)
+    if spans:
+        return [_led(span[0], part_of(clip, skeleton, clip.name, slice(*span)), skeleton, 0) for span in spans]
     ends = [*clip.discontinuities(skeleton), len(clip.root_positions)]
     parts = [slice(*span) for span in zip([0, *ends], ends) if span[1] - span[0] >= _FEWEST]
     if len(ends) > 1:

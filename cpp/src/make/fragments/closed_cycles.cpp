@@ -10,12 +10,12 @@
 #include "fragments/gait_cycle.hpp"
 #include "fragments/gait_heights.hpp"
 #include "motion/contacts.hpp"
+#include "motion/cycle.hpp"
 
 namespace fragmotion {
 namespace {
 
-constexpr double kShortestCycle = 0.4, kLongestCycle = 1.4;  // s; longer only where there is none of a gait
-constexpr double kClosed = 3 / kTunedReach;                  // m a metre of reach between the ends of a cycle
+constexpr double kClosed = 3 / kTunedReach;  // m a metre of reach between the ends of a cycle
 
 Control mean(const Control& a, const Control& b, double w) {
   return {a.x + w * (b.x - a.x), a.y + w * (b.y - a.y), a.turn + w * (b.turn - a.turn), a.jump + w * (b.jump - a.jump)};

@@ -5,6 +5,9 @@
 
 namespace fragmotion {
 
+/// s of two steps of a gait; longer only where there is no shorter one of it.
+constexpr double kShortestCycle = 0.4, kLongestCycle = 1.4;
+
 /// The frames after which a clip begins again: one less than it has where the last shows the first's pose once more,
 /// as many where the first would be the next. 0 where the clip is no cycle: its ends, seen from their character frames,
 /// are farther apart than what a thirtieth of a second changes beside them.

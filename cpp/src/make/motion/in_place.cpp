@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/quantile.hpp"
 #include "motion/contacts.hpp"
 #include "motion/cycle.hpp"
 #include "motion/gait_scale.hpp"
@@ -27,7 +28,8 @@ Vector2 middle(const Clip& clip) {
   return sum / clip.frames;
 }
 
-bool stays(const Clip& clip, double scale) {
+bool stays(const Kinematics& kinematics, const Clip& clip) {
+  const double scale = standard_scale(kinematics.skeleton());
   for (int f = 1; f < clip.frames; ++f) {
     if ((root_at(clip, f) - root_at(clip, 0)).norm() * scale > kStays) return false;
   }
@@ -77,13 +79,16 @@ std::optional<FeetWay> way_of(const std::vector<SolePath>& soles, const Clip& cl
   if (!turns(clip)) way.turn = treading.turn();
   if (std::abs(way.turn) < kTurns) way.turn = 0;
   const Vector2 center = middle(clip);
-  const auto told = way_of(treading, soles, treading.velocities(way.turn, center), way, clip, scale);
-  return told ? told : way_of(treading, soles, treading.striding(way.turn, center), way, clip, scale);
+  const Velocities stands = treading.velocities(way.turn, center), strides = treading.striding(way.turn, center);
+  way.by_legs = soles[0].points.size() > 1 && stands == strides;
+  if (auto told = way_of(treading, soles, stands, way, clip, scale)) return told;
+  way.by_legs = soles[0].points.size() > 1;
+  return way_of(treading, soles, strides, way, clip, scale);
 }
 
 FeetWay halfway(FeetWay a, const FeetWay& b) {
   for (std::size_t f = 0; f < a.velocities.size(); ++f) a.velocities[f] = (a.velocities[f] + b.velocities[f]) / 2;
-  return {std::move(a.velocities), (a.turn + b.turn) / 2, (a.mean + b.mean) / 2};
+  return {std::move(a.velocities), (a.turn + b.turn) / 2, (a.mean + b.mean) / 2, a.by_legs || b.by_legs};
 }
 
 // Of a four-legged body the mean of what the hind feet and the fore feet tell, if both do.
@@ -117,8 +122,18 @@ std::vector<double> bone_speeds(const Kinematics& kinematics, const Clip& clip) 
 
 }  // namespace
 
+bool stays_mostly(const Kinematics& kinematics, const Clip& clip) {
+  std::vector<double> x, y;
+  for (int f = 0; f < clip.frames; ++f) x.push_back(root_at(clip, f).x()), y.push_back(root_at(clip, f).y());
+  const Vector2 middle(median(x), median(y));
+  const double most = kStays / standard_scale(kinematics.skeleton());
+  int near = 0;
+  for (int f = 0; f < clip.frames; ++f) near += (root_at(clip, f) - middle).norm() <= most;
+  return 2 * near > clip.frames;
+}
+
 std::optional<FeetWay> way_ahead(const Kinematics& kinematics, const Clip& clip, double speed) {
-  if (!stays(clip, standard_scale(kinematics.skeleton()))) return std::nullopt;
+  if (!stays(kinematics, clip)) return std::nullopt;
   Vector2 facing = Vector2::Zero();
   for (const double heading : clip.headings) facing += Eigen::Rotation2Dd(heading) * Vector2::UnitY();
   FeetWay way;
@@ -130,7 +145,7 @@ std::optional<FeetWay> way_ahead(const Kinematics& kinematics, const Clip& clip,
 bool may_go(const Kinematics& kinematics, const Clip& clip) {
   const Skeleton& skeleton = kinematics.skeleton();
   const double scale = standard_scale(skeleton);
-  if (!stays(clip, scale) || cycle_of(kinematics, clip) == 0) return false;
+  if (!stays(kinematics, clip) || cycle_of(kinematics, clip) == 0) return false;
   const std::vector<double> speeds = bone_speeds(kinematics, clip);
   double fastest = 0;
   const std::vector<LegRoles> legs = legs_with_feet(skeleton.roles);
@@ -142,7 +157,7 @@ bool may_go(const Kinematics& kinematics, const Clip& clip) {
 std::optional<FeetWay> find_feet_way(const Kinematics& kinematics, const Clip& held) {
   const Clip clip = without_held_end(held);
   const Skeleton& skeleton = kinematics.skeleton();
-  if (legs_with_feet(skeleton.roles).empty() || !stays(clip, standard_scale(skeleton))) return std::nullopt;
+  if (legs_with_feet(skeleton.roles).empty() || !stays(kinematics, clip)) return std::nullopt;
   const int period = cycle_of(kinematics, clip);
   const Clip round = period > 0 ? unrolled(kinematics, clip, period, 2 * period + clip.frames) : clip;
   std::optional<FeetWay> way = way_of(kinematics, round);

@@ -13,7 +13,11 @@ struct FeetWay {
   std::vector<Vector2> velocities;  ///< [frames - 1] m/s, from each frame to the next, in the clip's axes
   double turn = 0;                  ///< rad/s, left is positive; 0 of a body that is seen to turn
   Vector2 mean = Vector2::Zero();   ///< m/s: the mean velocity, as the body sees it: right, forward
+  bool by_legs = false;             ///< How far legs with feet open tells it, for none of what stands does.
 };
+
+/// Whether in most frames of a clip the hips are about where they are in the others: at the end a fall may lead away.
+bool stays_mostly(const Kinematics& kinematics, const Clip& clip);
 
 /// The way of a clip on the spot; nothing where the hips travel or the feet do not tread, and where the skeleton has
 /// not two feet. A foot that stands is still, so the body goes as the sole on the ground goes back: about as fast as
