@@ -25,23 +25,10 @@ Clip swing(double from, double to) {
 }
 
 TEST(JointRanges, TellHowFarAPoseIsBeyondTheTakes) {
-  const JointRanges ranges({1, kLeg}, {swing(-20, 10), swing(0, 40)}, 2);
+  const JointRanges ranges({1, kLeg}, {swing(-20, 10), swing(0, 40)});
   for (const auto& [angle, beyond] : {std::pair{-35, 15}, {-20, 0}, {15, 0}, {40, 0}, {50, 10}}) {
     EXPECT_NEAR(ranges.excess(swing(angle, angle).rotations.data()), beyond * kDegree, 1e-9) << angle;
   }
-}
-
-TEST(JointRanges, TellHowFarATakeIsBeyondTheOthersInTheMean) {
-  const std::vector<Clip> takes{swing(-20, 40), swing(-20, 40), swing(0, 70), swing(10, 20)};
-  EXPECT_NEAR(JointRanges({kLeg}, takes, 4).usual(), 30 * kDegree / 4, 1e-9);
-  std::vector<Clip> mirrored = takes;
-  mirrored.insert(mirrored.end(), {swing(0, 0), swing(-50, 0), swing(0, 90), swing(0, 50)});
-  EXPECT_NEAR(JointRanges({kLeg}, mirrored, 4).usual(), (30 + 40) * kDegree / 4, 1e-9) << "an image goes with its take";
-}
-
-TEST(JointRanges, OfASingleTakeAreNotWhereABodyEnds) {
-  EXPECT_EQ(JointRanges({kLeg}, {swing(-20, 40), swing(-40, 20)}, 1).usual(), std::numeric_limits<double>::infinity());
-  EXPECT_EQ(JointRanges({}, {swing(-20, 40)}, 1).usual(), 0) << "of no joint";
 }
 
 }  // namespace

@@ -12,11 +12,11 @@
 #include "base/ranges.hpp"
 #include "base/rounding.hpp"
 #include "fragments/blend.hpp"
+#include "fragments/borne_gaits.hpp"
 #include "fragments/closed_cycles.hpp"
 #include "fragments/coverage.hpp"
 #include "fragments/distance.hpp"
 #include "fragments/gait_edit.hpp"
-#include "fragments/hip_turns.hpp"
 #include "fragments/leap.hpp"
 #include "fragments/speed_range.hpp"
 #include "fragments/standing.hpp"
@@ -38,7 +38,7 @@ constexpr double kRunningDip = 0.6;              // of that dip, as it runs
 constexpr double kSinking = 0.2;                 // s into a crouch; half of that as it runs
 constexpr double kSimilar = 2.52 / kTunedReach;  // m a metre of reach: fragments this near may be interpolated
 constexpr int kCandidates = 24;                  // neighbours of a control that interpolation tries in pairs
-constexpr double kMostTempo = 1.2;  // the most by which steps are hurried, as those sideways are, or slowed
+constexpr double kMostTempo = 1.2;  // the most by which steps are hurried: for speed, sideways, for legs to bear it
 constexpr double kStandSeconds = 0.5;
 constexpr double kStandsLong = 3;  // s that a take stands, so that one does not see it begin again
 constexpr int kStands = 48;        // fragments that stand, one after the other, until they begin again
@@ -113,7 +113,7 @@ class Synthesizer {
         kinematics_(pool.skeleton),
         legs_(find_legs(kinematics_, pool.clips)),
         trajectories_(trajectories(pool, kPoses, threads)),
-        hip_turns_(kinematics_, legs_, pool, takes),
+        borne_gaits_(kinematics_, legs_, pool, kMostTempo),
         originals_(static_cast<int>(pool.fragments.size())),
         cycles_(closed_cycles(pool, trajectories_, space, takes)) {
     find_dip();
@@ -326,7 +326,7 @@ class Synthesizer {
     const double sideways = std::abs(std::sin(change.direction)), cadence = 1 + sideways * (kMostTempo - 1);
     change.tempo = std::max(usual / pieces, cadence * std::clamp(std::sqrt(faster), 1 / kMostTempo, kMostTempo));
     change.speed = faster / change.tempo;
-    change.hips = hip_turns_.of(clip, gait.number, gait.begin, gait.end, change);
+    change = borne_gaits_.of(clip, gait.number, gait.begin, gait.end, change);
     const int beyond = tail(clip.rate * change.tempo);
     const int most = length + beyond + frames_of(hop_at(control.speed(), missing_rise(0)), clip.rate * change.tempo);
     const Clip made = transformed(kinematics_, legs_, clip, gait.contacts, gait.begin, gait.end, most, change);
@@ -391,7 +391,7 @@ class Synthesizer {
   Kinematics kinematics_;
   Legs legs_;
   Trajectories trajectories_;
-  HipTurns hip_turns_;
+  BorneGaits borne_gaits_;
   int originals_;
   std::vector<ClosedCycle> cycles_;
   bool takes_jump_ = false;                     // then these show how high and fast

@@ -38,18 +38,6 @@ void find_axes(const EachPose& each_pose, std::vector<JointAxes>& joints) {
   for (std::size_t j = 0; j < joints.size(); ++j) joints[j].axes = principal_axes(spreads[j]);
 }
 
-// Of the joint that is furthest beyond, in the mean of the takes.
-double usual_excess(const std::vector<TurnRanges>& by_take) {
-  double sum = 0;
-  for (std::size_t take = 0; take < by_take.size(); ++take) {
-    const TurnRanges others = together(by_take, by_take[take].size(), take);
-    double most = 0;
-    for (std::size_t j = 0; j < others.size(); ++j) most = std::max(most, others[j].excess(by_take[take][j]));
-    sum += most;
-  }
-  return sum / static_cast<double>(by_take.size());
-}
-
 }  // namespace
 
 Vector3 JointAxes::turn(const double* rotations) const {
@@ -76,10 +64,6 @@ double TurnRange::excess(const Vector3& turn) const {
   return (least - turn).cwiseMax(turn - greatest).cwiseMax(Vector3::Zero()).norm();
 }
 
-double TurnRange::excess(const TurnRange& other) const {
-  return (least - other.least).cwiseMax(other.greatest - greatest).cwiseMax(Vector3::Zero()).norm();
-}
-
 std::vector<JointAxes> joint_axes(const std::vector<int>& bones, const EachPose& each_pose) {
   std::vector<JointAxes> joints(bones.size());
   for (std::size_t j = 0; j < bones.size(); ++j) joints[j].bone = bones[j];
@@ -96,23 +80,18 @@ TurnRanges together(const std::vector<TurnRanges>& by_take, std::size_t joints, 
   return all;
 }
 
-JointRanges::JointRanges(const std::vector<int>& bones, const std::vector<Clip>& clips, std::size_t takes) {
-  using Visit = std::function<void(std::size_t, const double*)>;
-  const auto each_pose = [&](const Visit& visit) {
-    for (std::size_t c = 0; c < clips.size(); ++c) {
-      const std::size_t width = clips[c].rotations.size() / clips[c].frames;
-      const int step = std::max(1, static_cast<int>(std::lround(clips[c].rate / kPostureRate)));
-      for (int f = 0; f < clips[c].frames; f += step) visit(c % takes, &clips[c].rotations[width * f]);
+JointRanges::JointRanges(const std::vector<int>& bones, const std::vector<Clip>& clips) : ranges_(bones.size()) {
+  const auto each_pose = [&](const std::function<void(const double*)>& visit) {
+    for (const Clip& clip : clips) {
+      const std::size_t width = clip.rotations.size() / clip.frames;
+      const int step = std::max(1, static_cast<int>(std::lround(clip.rate / kPostureRate)));
+      for (int f = 0; f < clip.frames; f += step) visit(&clip.rotations[width * f]);
     }
   };
-  joints_ = joint_axes(
-      bones, [&](const auto& visit) { each_pose([&](std::size_t, const double* rotations) { visit(rotations); }); });
-  std::vector<TurnRanges> by_take(takes, TurnRanges(bones.size()));
-  each_pose([&](std::size_t take, const double* rotations) {
-    for (std::size_t j = 0; j < joints_.size(); ++j) by_take[take][j].add(joints_[j].turn(rotations));
+  joints_ = joint_axes(bones, each_pose);
+  each_pose([&](const double* rotations) {
+    for (std::size_t j = 0; j < joints_.size(); ++j) ranges_[j].add(joints_[j].turn(rotations));
   });
-  ranges_ = together(by_take, joints_.size(), takes);
-  usual_ = usual_excess(by_take);
 }
 
 double JointRanges::excess(const double* rotations) const {

@@ -30,7 +30,6 @@ struct TurnRange {
   void add(const Vector3& turn);
   void add(const TurnRange& other);
   double excess(const Vector3& turn) const;  ///< rad; infinite where nothing was seen
-  double excess(const TurnRange& other) const;
 };
 
 /// Calls a function with the rotations [bones, 4] of each pose, each time the same ones.
@@ -47,19 +46,14 @@ TurnRanges together(const std::vector<TurnRanges>& by_take, std::size_t joints, 
 /// The ranges of some joints in takes, of which it looks at ten poses a second.
 class JointRanges {
  public:
-  /// Clip c is of take c % `takes`: mirror images come after them, in their order.
-  JointRanges(const std::vector<int>& bones, const std::vector<Clip>& clips, std::size_t takes);
+  JointRanges(const std::vector<int>& bones, const std::vector<Clip>& clips);
 
   /// How far the joint is beyond its range that is furthest beyond, rad.
   double excess(const double* rotations) const;
-  /// How far a take is beyond the range of all others, rad, in the mean: as far as one may well be that is not there.
-  /// Infinite for a single take.
-  double usual() const { return usual_; }
 
  private:
   std::vector<JointAxes> joints_;
   TurnRanges ranges_;
-  double usual_;
 };
 
 }  // namespace fragmotion

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "fragments/hip_turns.hpp"
+#include "fragments/borne_gaits.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -55,25 +55,33 @@ GaitEdit straight_on(GaitEdit edit) {
   edit.speed = std::min(1.0, edit.speed);
   return edit;
 }
+GaitEdit with(GaitEdit edit, double hips, double hurry) {
+  edit.hips = hips;
+  edit.tempo *= hurry;
+  edit.speed /= hurry;
+  return edit;
+}
 
 }  // namespace
 
-HipTurns::HipTurns(const Kinematics& kinematics, const Legs& legs, const FragmentPool& pool, std::size_t takes)
+BorneGaits::BorneGaits(const Kinematics& kinematics, const Legs& legs, const FragmentPool& pool, double most_hurry)
     : kinematics_(kinematics),
       legs_(legs),
       pool_(pool),
-      leg_ranges_(thighs_and_knees(legs), pool.clips, takes),
-      spine_ranges_(spine_bones(pool.skeleton), pool.clips, takes) {}
+      most_hurry_(most_hurry),
+      leg_ranges_(thighs_and_knees(legs), pool.clips),
+      spine_ranges_(spine_bones(pool.skeleton), pool.clips) {}
 
-double HipTurns::of(const Clip& clip, int number, int begin, int end, GaitEdit edit) {
-  edit.turn = edit.hips = 0;
-  return found_.get({number, begin, end, edit.direction, edit.speed, edit.tempo},
-                    [&] { return find(clip, begin, end, edit); });
+GaitEdit BorneGaits::of(const Clip& clip, int number, int begin, int end, const GaitEdit& edit) {
+  GaitEdit changed = edit;
+  changed.turn = changed.hips = 0;
+  const Change& change = found_.get({number, begin, end, edit.direction, edit.speed, edit.tempo},
+                                    [&] { return find(clip, begin, end, changed); });
+  return with(edit, change.hips, change.hurry);
 }
 
-double HipTurns::find(const Clip& clip, int begin, int end, const GaitEdit& edit) const {
-  const double wanted = std::sin(2 * edit.direction) / 2;
-  if (wanted == 0 || legs_.count() != 2 || spine_bones(pool_.skeleton).empty()) return 0;
+BorneGaits::Change BorneGaits::find(const Clip& clip, int begin, int end, const GaitEdit& edit) const {
+  if (edit.direction == 0 || legs_.count() != 2) return {};
   const GaitCycle whole = gait_cycle_of(kinematics_, clip, begin, end), cycle = thinned(whole);
   const double rate = clip.rate * edit.tempo * cycle.frames() / whole.frames();
   const auto beyond = [&](const GaitEdit& tried) {
@@ -83,20 +91,22 @@ double HipTurns::find(const Clip& clip, int begin, int end, const GaitEdit& edit
     for (BodyPose& pose : changed.poses) strides.change(pose);
     return excess(leg_ranges_, changed);
   };
-  const double usual = std::max({kSeenExcess, leg_ranges_.usual(), excess(leg_ranges_, cycle), beyond(in_place(edit)),
-                                 beyond(straight_on(edit))});
-  const auto is_borne = [&](double hips) {
-    GaitEdit tried = edit;
-    tried.hips = hips;
-    return beyond(tried) <= usual;
+  const double usual =
+      std::max({kSeenExcess, excess(leg_ranges_, cycle), beyond(in_place(edit)), beyond(straight_on(edit))});
+  if (beyond(edit) <= usual) return {};
+  const auto least = [&](double most, const auto& changed) {
+    const double borne = std::max(usual, beyond(changed(most)));
+    return most - most_borne(most, [&](double less) { return beyond(changed(most - less)) <= borne; });
   };
-  if (is_borne(0)) return 0;
-  const double most = most_turn(cycle, wanted);
-  return most - most_borne(most, [&](double less) { return is_borne(most - less); });
+  const double turn = most_turn(cycle, std::sin(2 * edit.direction) / 2),
+               hips = least(turn, [&](double angle) { return with(edit, angle, 1); }),
+               more = least(most_hurry_ - 1, [&](double hurry) { return with(edit, hips, 1 + hurry); });
+  return {hips, 1 + more};
 }
 
 // How far the hips may be turned under the head, rad.
-double HipTurns::most_turn(const GaitCycle& cycle, double wanted) const {
+double BorneGaits::most_turn(const GaitCycle& cycle, double wanted) const {
+  if (wanted == 0 || spine_bones(pool_.skeleton).empty()) return 0;
   const double usual = std::max(kSeenExcess, excess(spine_ranges_, cycle));
   return most_borne(wanted, [&](double angle) {
     GaitCycle turned = cycle;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
-#include "fragments/hip_turns.hpp"
+#include "fragments/borne_gaits.hpp"
 #include "measured_clips.hpp"
 #include "motion/legs.hpp"
 #include "motion/pose.hpp"
@@ -42,15 +42,19 @@ GaitEdit towards(double degrees, double speed = 1) {
   return edit;
 }
 
-double hips(const FragmentPool& pool, const GaitEdit& edit) {
+constexpr double kMostHurry = 1.25;
+
+GaitEdit borne(const FragmentPool& pool, const GaitEdit& edit) {
   const Legs legs = find_legs(kKinematics, pool.clips);
-  return HipTurns(kKinematics, legs, pool, pool.clips.size()).of(pool.clips[0], 0, kBegin, kEnd, edit);
+  return BorneGaits(kKinematics, legs, pool, kMostHurry).of(pool.clips[0], 0, kBegin, kEnd, edit);
 }
+
+double hips(const FragmentPool& pool, const GaitEdit& edit) { return borne(pool, edit).hips; }
 
 // How far thighs and knees are beyond the walks at most in the gait that this edit makes of the first, degrees.
 double beyond(const FragmentPool& pool, const GaitEdit& edit) {
   const Legs legs = find_legs(kKinematics, pool.clips);
-  const JointRanges ranges({legs[0].thigh, legs[0].knee, legs[1].thigh, legs[1].knee}, pool.clips, pool.clips.size());
+  const JointRanges ranges({legs[0].thigh, legs[0].knee, legs[1].thigh, legs[1].knee}, pool.clips);
   const Contacts contacts = find_contacts(kKinematics, pool.clips[0]);
   const Clip made = transformed(kKinematics, legs, pool.clips[0], contacts, kBegin, kEnd, kEnd - kBegin, edit);
   double most = 0;
@@ -60,14 +64,15 @@ double beyond(const FragmentPool& pool, const GaitEdit& edit) {
   return most / kRadian;
 }
 
-TEST(HipTurns, AreNoneWhereJointsStayWithinTheTakes) {
+TEST(BorneGaits, AreAsTheyWereWhereJointsStayWithinTheTakes) {
   const FragmentPool pool = walks(0.3);
   for (const GaitEdit& edit : {GaitEdit{}, towards(0, 0.6), towards(0, 1.6), towards(10)}) {
     EXPECT_EQ(hips(pool, edit), 0);
+    EXPECT_EQ(borne(pool, edit).tempo, 1);
   }
 }
 
-TEST(HipTurns, AreAsFarAsIsNeededAndTheSpineBears) {
+TEST(BorneGaits, TurnHipsAsFarAsIsNeededAndTheSpineBears) {
   const FragmentPool stiff = walks(0), supple = walks(0.3);
   EXPECT_LT(std::abs(hips(stiff, towards(40))), 2.5 * kRadian) << "a degree of each bone of the spine";
   GaitEdit edit = towards(40);
@@ -79,7 +84,7 @@ TEST(HipTurns, AreAsFarAsIsNeededAndTheSpineBears) {
   EXPECT_NEAR(hips(supple, towards(-40)), -much, 4 * kRadian) << "what is restless is not quite its mirror image";
 }
 
-TEST(HipTurns, KeepTheHeadOverHipsThatTurn) {
+TEST(BorneGaits, KeepTheHeadOverHipsThatTurn) {
   const FragmentPool pool = walks(0.3);
   const Legs legs = find_legs(kKinematics, pool.clips);
   const Contacts contacts = find_contacts(kKinematics, pool.clips[0]);
@@ -97,7 +102,22 @@ TEST(HipTurns, KeepTheHeadOverHipsThatTurn) {
               0, 1e-6);
 }
 
-TEST(HipTurns, OfASingleTakeAreNone) { EXPECT_EQ(hips({kSkeleton, {gait_clip({})}, {}}, towards(90, 1.5)), 0); }
+TEST(BorneGaits, HurryAsFarAsIsNeededWhereHipsDoNotHelp) {
+  const GaitEdit wide = towards(90, 1.5);
+  const FragmentPool pool = walks(0);
+  const GaitEdit much = borne(pool, wide);
+  EXPECT_NEAR(much.tempo, kMostHurry, 1e-9);
+  EXPECT_NEAR(much.speed * much.tempo, 1.5, 1e-9) << "as fast as before";
+  EXPECT_LT(beyond(pool, much), beyond(pool, wide) - 3);
+  const auto tempo_where_takes_step = [&](double speed) {
+    FragmentPool aside = pool;
+    const Legs legs = find_legs(kKinematics, pool.clips);
+    aside.clips.push_back(transformed(kKinematics, legs, pool.clips[0], {}, kBegin, kEnd, 40, towards(90, speed)));
+    return borne(aside, wide).tempo;
+  };
+  EXPECT_EQ(tempo_where_takes_step(1.6), 1);
+  EXPECT_NEAR(tempo_where_takes_step(1.3), 1.5 / 1.3, 0.1);
+}
 
 }  // namespace
 }  // namespace fragmotion
