@@ -37,7 +37,8 @@ double stated_performing(const Choice& choice, int fragment, const Control& cont
   const TransitionWeights weights;
   const Fragment& f = c.pool.fragments[fragment];
   const bool made = f.origin == Origin::interpolated || f.origin == Origin::transformed;
-  return weights.match * c.space.distance(f.evident, control) + (made ? weights.manner : 0);
+  return weights.match * c.space.distance(f.evident, control) + weights.bent * std::abs(f.evident.turn - control.turn) +
+         (made ? weights.manner : 0);
 }
 
 // Its stated equation, of a fragment that is entered from what plays; how the tips would go on is the selector's.

@@ -30,7 +30,7 @@ struct TransitionWeights {
   double manner = 0.3;     ///< For each of: it is synthesized, captured and mirrored follow each other, and another
                            ///< take goes on, as no two are of quite one manner.
   double unsteady = 5;     ///< Each m/s by which a fragment gets faster or slower: one limps through a held control.
-  double bent = 1.5;       ///< A turn rate by which what goes on turns otherwise than asked: planted feet are twisted.
+  double bent = 1.5;       ///< A turn rate by which a fragment turns otherwise than asked: planted feet are twisted.
   double hurried = 3;      ///< All of a step that a fragment lacks: parts of steps bring a stitch the more.
   double out_of_turn = 2;  ///< Each foot that comes down out of turn.
   double wait = 1.6;  ///< A second of each unit of ControlDis between what plays and the class that the policy tells,

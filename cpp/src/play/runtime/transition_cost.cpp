@@ -46,9 +46,7 @@ double TransitionCost::strays(int fragment, const Control& control) const {
 
 float TransitionCost::of_going_on(int fragment, const Control& control) const {
   const Control& evident = character_->pool.fragments[fragment].evident;
-  const double turned = std::abs(evident.turn - control.turn);
-  return of_performing(evident, made_[fragment], control) + unsteady_ * static_cast<float>(strays(fragment, control)) +
-         bent_ * static_cast<float>(turned);
+  return of_performing(evident, made_[fragment], control) + unsteady_ * static_cast<float>(strays(fragment, control));
 }
 
 [[gnu::cold]] std::vector<Entrants> TransitionCost::entrants() const {
@@ -92,11 +90,12 @@ FRAGMOTION_VECTORISED void TransitionCost::of_entering(const Entrants& entrants,
   for (int i = 0; i < count; ++i) apart[i] = metric({x[i], y[i], turn[i], jump[i]}, wanted);
   const int *clip = entrants.numbers.data() + count, *mirrored = clip + count;
   const float *made = entrants.costs.data(), *entered = made + count;
-  const float match = match_, manner = manner_;
+  const float match = match_, manner = manner_, bent = bent_;
   for (int i = 0; i < count; ++i) {
     const float side = mirrored[i] == (entry.is_mirrored ? 1 : 0) ? 0 : manner,
                 take = clip[i] == entry.clip ? 0 : manner;
-    costs[i] = match * static_cast<float>(apart[i]) + made[i] + entered[i] + side + take;
+    const auto turned = static_cast<float>(std::abs(turn[i] - wanted.turn));
+    costs[i] = match * static_cast<float>(apart[i]) + bent * turned + made[i] + entered[i] + side + take;
   }
   if (entry.matches) {
     for (int i = 0; i < count; ++i) costs[i] = matches_jump({0, 0, 0, jump[i]}, wanted) ? costs[i] : infinite;

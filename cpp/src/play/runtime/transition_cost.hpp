@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
 #include <vector>
 
 #include "character/character.hpp"
@@ -43,7 +44,7 @@ struct Entry {
 /// kTunedReach:
 ///
 ///   cost = perform(g) + enter(g) + join(g) + wait ControlDis(Ev(what plays), Ev(class)) t
-///   perform(g) = match ControlDis(Ev(g), control) + manner [g is synthesized]
+///   perform(g) = match ControlDis(Ev(g), control) + bent |turn of g - turn of control| + manner [g is synthesized]
 ///   enter(g) = unsteady |dv(g)| + hurried (1 - seconds(g) / a step's)+ + manner ([g or what is left is the mirrored
 ///              one of the two] + [g is of another take])
 ///   join(g) = Dis(what is left as it would go on, the beginning of g) + out_of_turn (feet that come down out of turn)
@@ -80,7 +81,8 @@ class TransitionCost {
 
  private:
   float of_performing(const Control& evident, float made, const Control& control) const {
-    return match_ * static_cast<float>(character_->space.distance(evident, control)) + made;
+    return match_ * static_cast<float>(character_->space.distance(evident, control)) +
+           bent_ * static_cast<float>(std::abs(evident.turn - control.turn)) + made;
   }
   double strays(int fragment, const Control& control) const;
 
