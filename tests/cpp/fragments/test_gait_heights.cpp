@@ -46,6 +46,18 @@ TEST(GaitHeights, TellWhatIsCrouchedAmongWalks) {
   }
 }
 
+TEST(GaitHeights, AreThoseOfWhatGoesStraightAheadAlthoughMostDoesNot) {
+  Gait ahead, aside;
+  aside.x = 1.2, aside.y = 0, aside.seconds = 9;
+  const FragmentPool pool = gait_pool({gait_clip(ahead), crouched(gait_clip(aside))});
+  const Trajectories t = trajectories(pool);
+  const GaitHeights usual(t, pool.fragments, ControlSpace(1.2, 3.3));
+  for (int f = 0; f < t.count; ++f) {
+    const double excess = usual.excess(f, f, pool.fragments[f].evident.speed());
+    if (pool.fragments[f].clip == 1) EXPECT_GT(excess, kCrouch);
+  }
+}
+
 TEST(GaitHeights, AreThoseOfWhatIsMade) {
   FragmentPool pool = walks_and_a_crouch();
   const std::size_t captured = pool.fragments.size();

@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 #include <utility>
 
 #include "base/quantile.hpp"
 #include "base/rounding.hpp"
 #include "control/gaits.hpp"
+#include "fragments/gait_heights.hpp"
 #include "motion/contacts.hpp"
 #include "motion/gait_scale.hpp"
 
@@ -27,7 +29,6 @@ constexpr double kGroup = 0.02;  // of what goes, that a speed has at least
 constexpr int kFew = 3, kOneIn = 200;
 constexpr double kMostOf = 0.75;  // of so many directions: as good as all
 constexpr int kRounds = 100;
-constexpr double kTurning = kPi / 6;  // rad/s
 
 // Sorted values in two clusters.
 struct Clusters {
@@ -72,14 +73,32 @@ std::vector<double> going_speeds(const std::vector<Control>& evident, double sca
   return speeds;
 }
 
-// `least`: from where on it is no shuffle.
-std::vector<double> two_gaits(const std::vector<double>& speeds, double least) {
+// Those that go straight ahead: of who turns, goes aside or back, or is about to.
+std::vector<Control> straight_ahead(const std::vector<Control>& evident) {
+  std::vector<Control> ahead;
+  std::copy_if(evident.begin(), evident.end(), std::back_inserter(ahead),
+               [](const Control& ev) { return goes_straight_ahead(ev, ControlSpace().turn_rate()); });
+  return ahead;
+}
+
+// The mean of sorted values within a range, or `usual` where there is none.
+double mean_within(const std::vector<double>& sorted, double least, double most, double usual) {
+  const auto begin = std::lower_bound(sorted.begin(), sorted.end(), least),
+             end = std::upper_bound(begin, sorted.end(), most);
+  return begin == end ? usual : std::accumulate(begin, end, 0.0) / static_cast<double>(end - begin);
+}
+
+// Of the gaits that `speeds` fall into how fast those are of them that go `ahead`. `least`: from where on it is no
+// shuffle.
+std::vector<double> two_gaits(const std::vector<double>& speeds, const std::vector<double>& ahead, double least) {
   const double walk = kGaits[kWalk].speed, jog = kGaits[kJog].speed, run = kGaits[kRun].speed;
   if (speeds.empty()) return {walk, run};
   const auto [slow, fast, apart] = two_clusters(speeds);
   const auto walking = std::lower_bound(speeds.begin(), speeds.end(), least);
-  if (slow < least && walking != speeds.end()) return two_gaits({walking, speeds.end()}, least);
-  if (fast > (apart > kOneMode ? kApart : kTwoGaits) * slow) return {slow, fast};
+  if (slow < least && walking != speeds.end()) return two_gaits({walking, speeds.end()}, ahead, least);
+  const double between = (slow + fast) / 2;
+  if (fast > (apart > kOneMode ? kApart : kTwoGaits) * slow)
+    return {mean_within(ahead, speeds.front(), between, slow), mean_within(ahead, between, speeds.back(), fast)};
   const double mean = std::accumulate(speeds.begin(), speeds.end(), 0.0) / static_cast<double>(speeds.size());
   return mean < jog ? std::vector{mean, mean * (run / walk)} : std::vector{mean / (run / walk), mean};
 }
@@ -221,7 +240,8 @@ ControlSpace control_space_of(const std::vector<Control>& evident, double scale,
     layout.jump = show_jumps(evident);
   }
   const double ratio = options.find ? kTwoGaits : kApart;
-  std::vector<double> speeds = layout.speeds == 2 ? two_gaits(going, kWalking * scale / gait_scale(scale))
+  std::vector<double> speeds = layout.speeds == 2 ? two_gaits(going, going_speeds(straight_ahead(evident), scale),
+                                                              kWalking * scale / gait_scale(scale))
                                                   : filled(speeds_apart(going, layout.speeds, ratio), layout.speeds);
   for (double& speed : speeds) speed /= scale;
   return {layout, std::move(speeds), turn_rate(evident), scale};

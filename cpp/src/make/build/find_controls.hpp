@@ -12,9 +12,9 @@ struct ControlOptions {
 };
 
 /// The control space of a set of evident controls (in the default space). Of two speeds, which the paper has, they are
-/// the means of the two gaits that the fragments fall into; of others the means of as many groups, whose speeds differ
-/// by a fifth at least, or of one the gait of most. What the fragments lack is as people go. The turn rate is the upper
-/// quartile of those that turn. Throws as check(ControlLayout).
+/// the means of what goes straight ahead of the two gaits that the fragments fall into; of others the means of as many
+/// groups, whose speeds differ by a fifth at least, or of one the gait of most. What the fragments lack is as people
+/// go. The turn rate is the upper quartile of those that turn. Throws as check(ControlLayout).
 ControlSpace control_space_of(const std::vector<Control>& evident, double scale, const ControlOptions& options = {});
 
 /// What simulated players ask for who teach before the takes are known: as many speeds as are told, as fast as people

@@ -4,11 +4,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <utility>
 
+#include "base/quantile.hpp"
 #include "fragments/gait_cycle.hpp"
 #include "fragments/gait_heights.hpp"
+#include "fragments/speed_range.hpp"
 #include "motion/contacts.hpp"
 #include "motion/cycle.hpp"
 
@@ -79,7 +82,37 @@ double effort_of_direction(const Control& gait, const Control& control) {
   return std::abs(wrapped(std::atan2(control.y, control.x) - std::atan2(gait.y, gait.x))) / (kPi / 4);
 }
 
+double effort_of_speed(double faster) {
+  const double times = std::log(faster) / std::log(1.5);
+  return times > 0 ? times * times : -times;
+}
+
 namespace {
+
+// The directions in which gaits go.
+class Ways {
+ public:
+  Ways(const std::vector<ClosedCycle>& cycles, double moving) : moving_(moving) {
+    for (const ClosedCycle& cycle : cycles) {
+      if (cycle.evident.speed() <= moving) continue;
+      for (const double round : {-2 * kPi, 0.0, 2 * kPi}) angles_.push_back(round + angle_of(cycle.evident));
+    }
+    std::sort(angles_.begin(), angles_.end());
+  }
+
+  // Whether one goes the way of another gait, or that stands.
+  bool hold(const Control& gait) const {
+    const double angle = angle_of(gait);
+    const auto near = std::lower_bound(angles_.begin(), angles_.end(), angle - kSameDirection);
+    return gait.speed() > moving_ && near != angles_.end() && *near <= angle + kSameDirection;
+  }
+
+ private:
+  static double angle_of(const Control& gait) { return std::atan2(gait.y, gait.x); }
+
+  double moving_;
+  std::vector<double> angles_;  // sorted, and each a round before and after, too
+};
 
 // Looks for the cycles of a pool.
 struct CycleSearch {
@@ -111,7 +144,7 @@ struct CycleSearch {
     const double gap = this->gap(last, again), speed = cycle.evident.speed();
     if (gap > kClosed) return;
     cycle.flaw += gap + usual.excess(first, last, speed);
-    to[usual.gait_at(speed)].insert(to[usual.gait_at(speed)].end(), {cycle, backward(cycle)});
+    to[usual.gait_at(speed)].push_back(cycle);
   }
 
   // Of a step the gait goes straight on.
@@ -152,19 +185,29 @@ struct CycleSearch {
     });
   }
 
-  // Whether a take holds something whole of a gait.
-  bool goes(std::size_t gait) const {
-    return std::any_of(whole[gait].begin(), whole[gait].end(),
-                       [&](const ClosedCycle& cycle) { return cycle.evident.speed() > moving; });
+  double seconds(const ClosedCycle& cycle) const { return (cycle.end - cycle.begin) / pool.clips[cycle.clip].rate; }
+
+  // Whose steps follow each other sooner than half of the others' of the gait is about to turn, to stop or to start.
+  void blame_haste(std::vector<ClosedCycle>& cycles) const {
+    std::vector<double> lengths;
+    for (const ClosedCycle& cycle : cycles) {
+      if (cycle.evident.speed() > moving) lengths.push_back(seconds(cycle));
+    }
+    if (lengths.empty()) return;
+    const double usual = median(std::move(lengths));
+    for (ClosedCycle& cycle : cycles) {
+      if (cycle.evident.speed() > moving)
+        cycle.flaw += effort_of_speed(std::max(1.0, usual / seconds(cycle))) / kFlawed;
+    }
   }
 
   // The first of those that are longer, as of who limps or is large, and that come back nearest.
-  void look_further(int first, std::array<std::vector<ClosedCycle>, 2>& longer) const {
+  void look_further(int first, const std::array<Ways, 2>& held, std::array<std::vector<ClosedCycle>, 2>& longer) const {
     ClosedCycle nearest;
     int end = -1;
     from(first, [&](const ClosedCycle& cycle, int last, double seconds) {
       const double speed = cycle.evident.speed();
-      if (seconds <= kLongestCycle || speed <= moving || goes(usual.gait_at(speed))) return true;
+      if (seconds <= kLongestCycle || speed <= moving || held[usual.gait_at(speed)].hold(cycle.evident)) return true;
       const bool nearer = end < 0 ? closes(first, last) : gap(last, first) < gap(end, first);
       if (nearer) nearest = cycle, end = last;
       return nearer || end < 0;
@@ -180,18 +223,24 @@ std::vector<ClosedCycle> closed_cycles(const FragmentPool& pool, const Trajector
   CycleSearch search{
       pool, trajectories, {trajectories, pool.fragments, space}, kMoving / space.scale(), beginnings(pool, takes), {},
       {}};
-  std::array<std::vector<ClosedCycle>, 2> longer;
   const int fragments = static_cast<int>(pool.fragments.size());
   for (int f = 0; f < fragments; ++f) search.look(f);
-  for (int f = 0; f < fragments; ++f) search.look_further(f, longer);
+  const std::array<Ways, 2> held{Ways(search.whole[0], search.moving), Ways(search.whole[1], search.moving)};
+  std::array<std::vector<ClosedCycle>, 2> longer;
+  for (int f = 0; f < fragments; ++f) search.look_further(f, held, longer);
   std::vector<ClosedCycle> found;
-  const auto append = [&](const std::vector<ClosedCycle>& cycles) {
-    found.insert(found.end(), cycles.begin(), cycles.end());
-  };
-  for (std::size_t gait = 0; gait < search.whole.size(); ++gait) {
-    append(search.whole[gait]);
-    if (!search.goes(gait)) append(search.steps[gait]);
-    append(longer[gait]);
+  for (std::size_t gait = 0; gait < held.size(); ++gait) {
+    std::vector<ClosedCycle> cycles = std::move(search.whole[gait]);
+    search.blame_haste(cycles);
+    std::copy_if(search.steps[gait].begin(), search.steps[gait].end(), std::back_inserter(cycles),
+                 [&](const ClosedCycle& step) { return !held[gait].hold(step.evident); });
+    cycles.insert(cycles.end(), longer[gait].begin(), longer[gait].end());
+    const Ways all(cycles, search.moving);
+    for (const ClosedCycle& cycle : cycles) {
+      found.push_back(cycle);
+      const ClosedCycle reversed = backward(cycle);
+      if (!all.hold(reversed.evident)) found.push_back(reversed);
+    }
   }
   return found;
 }

@@ -6,9 +6,14 @@
 #include <utility>
 
 #include "base/quantile.hpp"
+#include "fragments/speed_range.hpp"
 #include "motion/contacts.hpp"
 
 namespace fragmotion {
+
+bool goes_straight_ahead(const Control& evident, double turn_rate) {
+  return std::abs(std::atan2(evident.x, evident.y)) <= kSameDirection && std::abs(evident.turn) * turn_rate <= kTurning;
+}
 
 GaitHeights::GaitHeights(const Trajectories& t, const std::vector<Fragment>& fragments, const ControlSpace& space)
     : trajectories_(&t), faster_((space.walk() + space.run()) / 2) {
@@ -16,6 +21,11 @@ GaitHeights::GaitHeights(const Trajectories& t, const std::vector<Fragment>& fra
   for (std::size_t f = 0; f < fragments.size(); ++f) {
     const double speed = fragments[f].evident.speed();
     if (speed * space.scale() > kMoving) going[gait_at(speed)].push_back(static_cast<int>(f));
+  }
+  for (std::vector<int>& some : going) {
+    const auto aside = std::stable_partition(
+        some.begin(), some.end(), [&](int f) { return goes_straight_ahead(fragments[f].evident, space.turn_rate()); });
+    if (aside != some.begin()) some.erase(aside, some.end());
   }
   for (std::size_t gait = 0; gait < going.size(); ++gait) {
     for (int tip = 0; tip < t.tips && !going[gait].empty(); ++tip) {

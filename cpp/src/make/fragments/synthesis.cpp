@@ -273,9 +273,7 @@ class Synthesizer {
     if (cycle.backward()) ++effort;
     if (steps && !wants) effort += ev.speed() / space_.walk();  // it steps in place
     if (wants && effort < most) {
-      effort += effort_of_direction(ev, control);
-      const double faster = std::log(control.speed() / ev.speed()) / std::log(1.5);
-      effort += faster > 0 ? faster * faster : -faster;
+      effort += effort_of_direction(ev, control) + effort_of_speed(control.speed() / ev.speed());
     }
     return effort;
   }
