@@ -3,8 +3,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import fragmotion_core as core
 import numpy as np
 import pytest
@@ -14,16 +12,20 @@ from tools.measuring.directing.measures.ground import GROUNDS, ground
 
 DEEPEST, ON_STAIRS = 0.02, 0.025  # m: the goal, and with feet that come down late on a step
 SMOOTH, STEPPING = 2.5, 3.0  # times the plane's vertical acceleration of the hips: the goal on slopes; on stairs
+SEEDS = range(1, 6)
 WHIPS = 3.0  # times the fastest turn of a thigh on the plane
 
 
 @pytest.fixture(scope="module")
-def rows(bandai: Bandai) -> dict[str, dict[str, Any]]:
-    return {row["name"]: row for row in ground(bandai.character)}
+def rows(bandai: Bandai) -> dict[str, dict[str, float]]:
+    """The medians over some players: the greatest of one is chance."""
+    played = [{row["name"]: row for row in ground(bandai.character, seed)} for seed in SEEDS]
+    figures = [key for key in next(iter(played[0].values())) if key != "name"]
+    return {name: {key: float(np.median([rows[name][key] for rows in played])) for key in figures} for name in GROUNDS}
 
 
 @pytest.mark.parametrize("name", GROUNDS)
-def test_real_feet_stand_on_slopes_and_stairs(rows: dict[str, dict[str, Any]], name: str) -> None:
+def test_real_feet_stand_on_slopes_and_stairs(rows: dict[str, dict[str, float]], name: str) -> None:
     steps = name.startswith("stairs")
     assert rows[name]["depth_m"] < (ON_STAIRS if steps else DEEPEST)
     assert rows[name]["hips_ratio"] < (STEPPING if steps else SMOOTH)
@@ -31,7 +33,7 @@ def test_real_feet_stand_on_slopes_and_stairs(rows: dict[str, dict[str, Any]], n
 
 
 @pytest.mark.parametrize("name", [name for name in GROUNDS if name.startswith("slope")])
-def test_real_feet_slide_on_slopes_no_more_than_on_the_plane(rows: dict[str, dict[str, Any]], name: str) -> None:
+def test_real_feet_slide_on_slopes_no_more_than_on_the_plane(rows: dict[str, dict[str, float]], name: str) -> None:
     assert rows[name]["skate_ratio"] < 1.1
     assert rows[name]["within_2_cm"] > 0.98
 

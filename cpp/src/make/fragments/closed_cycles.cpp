@@ -187,11 +187,12 @@ struct CycleSearch {
 
   double seconds(const ClosedCycle& cycle) const { return (cycle.end - cycle.begin) / pool.clips[cycle.clip].rate; }
 
-  // Whose steps follow each other sooner than half of the others' of the gait is about to turn, to stop or to start.
+  // Who goes round sooner than half of the gait do, who go round once, is about to turn, to stop or to start.
   void blame_haste(std::vector<ClosedCycle>& cycles) const {
     std::vector<double> lengths;
-    for (const ClosedCycle& cycle : cycles) {
-      if (cycle.evident.speed() > moving) lengths.push_back(seconds(cycle));
+    for (std::size_t i = 0; i < cycles.size(); ++i) {
+      const bool once = i == 0 || cycles[i].clip != cycles[i - 1].clip || cycles[i].begin != cycles[i - 1].begin;
+      if (once && cycles[i].evident.speed() > moving) lengths.push_back(seconds(cycles[i]));
     }
     if (lengths.empty()) return;
     const double usual = median(std::move(lengths));

@@ -64,22 +64,22 @@ def asked(height: Height) -> Callable[[float, float, float], tuple[float, ...]]:
     return lambda x, y, _z: (height(x, y), *normal)
 
 
-def make_trace(space: core.ControlSpace) -> Array:
+def make_trace(space: core.ControlSpace, seed: int = SEED) -> Array:
     """Stand, walk, stop and run straight on, and then do what a simulated walker does."""
     parts = [(10, 0.0), (40, space.walk), (10, 0.0), (30, space.run), (10, 0.0)]
     straight = np.concatenate([np.tile((0.0, speed, 0.0, 0.0), (count, 1)) for count, speed in parts])
-    return np.concatenate((straight, core.simulate_trace("walker", _WALKER, SEED, space)))
+    return np.concatenate((straight, core.simulate_trace("walker", _WALKER, seed, space)))
 
 
-def ground(character: core.Character) -> list[dict[str, Any]]:
+def ground(character: core.Character, seed: int = SEED) -> list[dict[str, Any]]:
     """A row for each ground: the greatest distance of a foot in contact from it, above or in it, m; the share of the
     planted feet's frames in which they are within 2 cm of it, and the longest time that one is not, s; the skating of
     feet, the 99th percentile of the hips' vertical acceleration and the fastest turn of a thigh, over those on the
     plane."""
-    trace = make_trace(character.space)
+    trace = make_trace(character.space, seed)
     rows = []
     for name, (height, heading) in GROUNDS.items():
-        plane, seen = (show(character, trace, heading, on) for on in (None, asked(height)))
+        plane, seen = (show(character, trace, heading, on, seed) for on in (None, asked(height)))
         lowest = _lowest(character, plane)
         over, planted = np.abs(_over(seen, lowest, height)), _planted(character, plane, lowest)
         contact = planted & (_speeds(character, seen, 3) < _STILL)
@@ -97,9 +97,9 @@ def ground(character: core.Character) -> list[dict[str, Any]]:
     return rows
 
 
-def show(character: core.Character, trace: Array, heading: float, on: Any) -> Shown:
+def show(character: core.Character, trace: Array, heading: float, on: Any, seed: int) -> Shown:
     """What a trace shows on the ground, or the plane (None)."""
-    player = core.Player(character, SEED)
+    player = core.Player(character, seed)
     player.stand_on(on)
     player.reset(0.0, 0.1, heading)
     played = player.run(trace, RATE)
