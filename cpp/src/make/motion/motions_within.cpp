@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <optional>
+#include <queue>
+#include <tuple>
 
 #include "base/rounding.hpp"
 #include "motion/contacts.hpp"
@@ -104,9 +107,10 @@ class Timeline {
   // Whether it ends as near to where it begins as a frame is to the next, nearer than frames beside, goes on as it came
   // and not back, and both feet move in it.
   std::optional<Round> round(int first, int last) const {
+    if (moved_[last] - moved_[first] < kMoving * (last - first)) return std::nullopt;
     const double most = std::max(steps_[first], steps_[last - 1]);
     const double gap = tips_.distance(first, last, most);
-    if (gap > most || most == 0 || moved_[last] - moved_[first] < kMoving * (last - first)) return std::nullopt;
+    if (gap > most || most == 0) return std::nullopt;
     if (2 * tips_.distance(first + 1, last - 1, most) < most) return std::nullopt;
     for (int a = std::max(first - 1, 0); a <= first + 1; ++a) {
       for (int b = last - 1; b <= std::min(last + 1, clip_.frames - 1); ++b) {
@@ -116,26 +120,36 @@ class Timeline {
     return Round{{first, last}, gap / most};
   }
 
-  std::vector<Round> rounds() const {
-    const int least = std::max(4, static_cast<int>(std::lround(kShortestCycle * clip_.rate)));
-    std::vector<Round> rounds;
-    for (int first = 0; first < clip_.frames; ++first) {
-      for (int last = first + least; last < clip_.frames; ++last) {
-        if (const auto found = round(first, last)) rounds.push_back(*found);
-      }
-    }
-    std::stable_sort(rounds.begin(), rounds.end(),
-                     [](const Round& a, const Round& b) { return a.length() < b.length(); });
-    return rounds;
-  }
-
+  // In the order of their lengths, none of which is less than the frames of its round. What cannot be apart from a gait
+  // that is found is not looked at.
   std::vector<Span> gaits() const {
+    const auto before = [](const Round& a, const Round& b) {
+      return std::make_tuple(a.length(), a.span.first, a.span.last) <
+             std::make_tuple(b.length(), b.span.first, b.span.last);
+    };
+    const auto after = [&](const Round& a, const Round& b) { return before(b, a); };
+    std::priority_queue<Round, std::vector<Round>, decltype(after)> rounds(after);
     std::vector<Span> gaits;
-    for (const Round& round : rounds()) {
-      const Span& span = round.span;
-      const auto apart = [&](const Span& other) { return span.last <= other.first || span.first >= other.last; };
-      if (std::all_of(gaits.begin(), gaits.end(), apart) && goes(span)) gaits.push_back(span);
+    std::vector<int> most(clip_.frames, clip_.frames - 1), firsts(clip_.frames);  // the last frame from each first one
+    std::iota(firsts.begin(), firsts.end(), 0);
+    const auto look = [&](double shorter) {
+      for (; !rounds.empty() && rounds.top().length() < shorter; rounds.pop()) {
+        const Span span = rounds.top().span;
+        if (span.last > most[span.first] || !goes(span)) continue;
+        gaits.push_back(span);
+        for (int f = 0; f < span.last; ++f) most[f] = f < span.first ? std::min(most[f], span.first) : -1;
+      }
+    };
+    const int least = std::max(4, static_cast<int>(std::lround(kShortestCycle * clip_.rate)));
+    for (int frames = least; !firsts.empty(); ++frames) {
+      const auto ends = [&](int first) { return first + frames > most[first]; };
+      firsts.erase(std::remove_if(firsts.begin(), firsts.end(), ends), firsts.end());
+      for (const int first : firsts) {
+        if (const auto found = round(first, first + frames)) rounds.push(*found);
+      }
+      look(frames + 1);
     }
+    look(std::numeric_limits<double>::infinity());
     return gaits;
   }
 
