@@ -115,18 +115,21 @@ TEST(Build, IsTheSameCharacterTenTimesAsLarge) {
   }
 }
 
-// Whose takes were captured otherwise, so that a fragment may be entered a frame earlier or later.
+// Whose takes were captured otherwise, so that one fragment may be entered a frame earlier or later.
 void expect_same_character(const std::vector<Clip>& takes, const std::vector<Clip>& usual, double same) {
   const Character character = build(humanoid(), takes, some_traces(), few_classes()),
                   expected = build(humanoid(), usual, some_traces(), few_classes());
   ASSERT_EQ(character.entry_poses.size(), expected.entry_poses.size());
   const std::size_t each = expected.entry_poses.size() / expected.pool.fragments.size();
+  int otherwise = 0;
   for (std::size_t f = 0; f < expected.pool.fragments.size(); ++f) {
     const int first = character.pool.fragments[f].first_played(), usually = expected.pool.fragments[f].first_played();
     EXPECT_NEAR(first, usually, 1);
+    otherwise += first != usually ? 1 : 0;
     for (std::size_t i = each * f; first == usually && i < each * (f + 1); ++i)
       EXPECT_NEAR(character.entry_poses[i], expected.entry_poses[i], same);
   }
+  EXPECT_LE(otherwise, 1);
 }
 
 TEST(Build, IsTheSameCharacterOfATakeThatWasCapturedHigher) {

@@ -11,7 +11,7 @@
 #include "base/quantile.hpp"
 #include "base/rounding.hpp"
 #include "control/gaits.hpp"
-#include "fragments/gait_heights.hpp"
+#include "fragments/evident.hpp"
 #include "motion/contacts.hpp"
 #include "motion/gait_scale.hpp"
 
@@ -73,7 +73,7 @@ std::vector<double> going_speeds(const std::vector<Control>& evident, double sca
   return speeds;
 }
 
-// Those that go straight ahead: of who turns, goes aside or back, or is about to.
+// Those that go straight ahead: who turns, or goes aside or back, is slower.
 std::vector<Control> straight_ahead(const std::vector<Control>& evident) {
   std::vector<Control> ahead;
   std::copy_if(evident.begin(), evident.end(), std::back_inserter(ahead),
@@ -81,11 +81,15 @@ std::vector<Control> straight_ahead(const std::vector<Control>& evident) {
   return ahead;
 }
 
+double mean_of(const std::vector<double>& values, std::size_t begin, std::size_t end) {
+  return std::accumulate(values.begin() + begin, values.begin() + end, 0.0) / static_cast<double>(end - begin);
+}
+
 // The mean of sorted values within a range, or `usual` where there is none.
 double mean_within(const std::vector<double>& sorted, double least, double most, double usual) {
-  const auto begin = std::lower_bound(sorted.begin(), sorted.end(), least),
-             end = std::upper_bound(begin, sorted.end(), most);
-  return begin == end ? usual : std::accumulate(begin, end, 0.0) / static_cast<double>(end - begin);
+  const auto begin = std::lower_bound(sorted.begin(), sorted.end(), least) - sorted.begin(),
+             end = std::upper_bound(sorted.begin() + begin, sorted.end(), most) - sorted.begin();
+  return begin == end ? usual : mean_of(sorted, begin, end);
 }
 
 // Of the gaits that `speeds` fall into how fast those are of them that go `ahead`. `least`: from where on it is no
@@ -99,7 +103,7 @@ std::vector<double> two_gaits(const std::vector<double>& speeds, const std::vect
   const double between = (slow + fast) / 2;
   if (fast > (apart > kOneMode ? kApart : kTwoGaits) * slow)
     return {mean_within(ahead, speeds.front(), between, slow), mean_within(ahead, between, speeds.back(), fast)};
-  const double mean = std::accumulate(speeds.begin(), speeds.end(), 0.0) / static_cast<double>(speeds.size());
+  const double mean = mean_of(speeds, 0, speeds.size());
   return mean < jog ? std::vector{mean, mean * (run / walk)} : std::vector{mean / (run / walk), mean};
 }
 
@@ -117,10 +121,6 @@ struct Group {
   double mean = 0;
   std::size_t count = 0;
 };
-
-double mean_of(const std::vector<double>& values, std::size_t begin, std::size_t end) {
-  return std::accumulate(values.begin() + begin, values.begin() + end, 0.0) / static_cast<double>(end - begin);
-}
 
 // Sorted speeds in groups by k-means, where what is near is near as a ratio; none where a group is left empty.
 std::vector<Group> groups_of(const std::vector<double>& sorted, int count) {

@@ -6,14 +6,10 @@
 #include <utility>
 
 #include "base/quantile.hpp"
-#include "fragments/speed_range.hpp"
+#include "fragments/evident.hpp"
 #include "motion/contacts.hpp"
 
 namespace fragmotion {
-
-bool goes_straight_ahead(const Control& evident, double turn_rate) {
-  return std::abs(std::atan2(evident.x, evident.y)) <= kSameDirection && std::abs(evident.turn) * turn_rate <= kTurning;
-}
 
 GaitHeights::GaitHeights(const Trajectories& t, const std::vector<Fragment>& fragments, const ControlSpace& space)
     : trajectories_(&t), faster_((space.walk() + space.run()) / 2) {

@@ -9,11 +9,6 @@
 
 namespace fragmotion {
 
-constexpr double kTurning = kPi / 6;  ///< rad/s: at least so fast turns who turns.
-
-/// Whether a fragment goes ahead (kSameDirection) and does not turn, whose evident control counts turns in this rate.
-bool goes_straight_ahead(const Control& evident, double turn_rate);
-
 /// How high a character bears its head, hands and hips for most of the time: the medians over what goes straight ahead,
 /// or where nothing does, anywhere, at about the speed of its walk, and of its run.
 class GaitHeights {
