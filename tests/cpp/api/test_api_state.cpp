@@ -132,7 +132,7 @@ TEST(ApiState, IsRefusedWhereItIsNoneOfThisPlayer) {
   EXPECT_EQ(fragmotion_player_restore(player.get(), bytes.data(), bytes.size()), FRAGMOTION_ERROR_REFUSED);
   expect_ok(fragmotion_player_set_path(player.get(), nullptr));
   changed = bytes;
-  changed[8] = 9;
+  ++changed[8];
   EXPECT_EQ(fragmotion_player_restore(player.get(), changed.data(), changed.size()), FRAGMOTION_ERROR_NEWER_VERSION);
   expect_ok(fragmotion_player_restore(player.get(), bytes.data(), bytes.size()));
 }

@@ -11,6 +11,7 @@
 #include "motion/pack_clip.hpp"
 #include "motion/pose.hpp"
 #include "rolled_humanoid.hpp"
+#include "runtime/inertialization.hpp"
 #include "skeleton/roles.hpp"
 #include "small_character.hpp"
 
@@ -155,8 +156,7 @@ TEST(PackedClip, ShowsSomeBonesAsItShowsAll) {
   }
 }
 
-TEST(UnpackedPoses, ShowTheSameBitsWhateverWasAskedForBefore) {
-  const Skeleton skeleton = humanoid();
+PackedPool with_mirror_images(const Skeleton& skeleton) {
   const Kinematics kinematics(skeleton);
   std::vector<Clip> clips = gait_takes();
   const Mirror mirror(kinematics, clips);
@@ -165,7 +165,44 @@ TEST(UnpackedPoses, ShowTheSameBitsWhateverWasAskedForBefore) {
     clips.push_back(mirror(clips[c]));
     originals.push_back(c);
   }
-  const PackedPool packed = pack({skeleton, clips, {}}, {originals, mirror.turns()});
+  return pack({skeleton, clips, {}}, {originals, mirror.turns()});
+}
+
+TEST(UnpackedPoses, TurnTheHipsInTheWorldAndThenEachBoneByWhatIsLeft) {
+  const Skeleton skeleton = humanoid();
+  const int hips = skeleton.roles.hips;
+  const PackedPool packed = with_mirror_images(skeleton);
+  UnpackedPoses unpacked(skeleton.size());
+  Random random(6);
+  std::vector<double> rotations(std::size_t{4} * skeleton.size()), plain = rotations;
+  for (int n = 0; n < 200; ++n) {
+    const PackedClip& clip = packed.clips[random.below(static_cast<int>(packed.clips.size()))];
+    const double at = clip.frames * random.uniform(), heading = 10 * random.uniform();
+    WorldPose old, fresh;
+    for (int b = 0; b < skeleton.size(); ++b) {
+      for (WorldPose* pose : {&old, &fresh}) {
+        pose->rotations.resize(rotations.size());
+        store_quaternion(any_rotation(random), &pose->rotations[std::size_t{4} * b]);
+      }
+    }
+    Inertialization stitch(skeleton.size());
+    stitch.begin(old, fresh, fresh, old, 1, 0.3, &clip);
+    const Fade left = stitch.left(0.2 * random.uniform());
+    sample_pose(clip, at, plain.data());
+    unpacked.sample(clip, at, {hips, PlaneTurn(heading / 2), stitch.turns(left)}, rotations.data());
+    for (int b = 0; b < skeleton.size(); ++b) {
+      Quaternion expected = load_quaternion(&plain[std::size_t{4} * b]);
+      if (b == hips) expected = Eigen::AngleAxisd(heading, Vector3::UnitZ()) * expected;
+      EXPECT_LT(unpacked.plain(clip.lane_of(b)).angularDistance(expected), 1e-6);
+      expected = stitch.turn(clip.lane_of(b), left) * expected;
+      EXPECT_LT(load_quaternion(&rotations[std::size_t{4} * b]).angularDistance(expected), 1e-6);
+    }
+  }
+}
+
+TEST(UnpackedPoses, ShowTheSameBitsWhateverWasAskedForBefore) {
+  const Skeleton skeleton = humanoid();
+  const PackedPool packed = with_mirror_images(skeleton);
   UnpackedPoses unpacked(skeleton.size());
   std::vector<double> rotations(std::size_t{4} * skeleton.size()), expected = rotations;
   Random random(5);
@@ -174,7 +211,7 @@ TEST(UnpackedPoses, ShowTheSameBitsWhateverWasAskedForBefore) {
     const PackedClip& clip = packed.clips[random.below(static_cast<int>(packed.clips.size()))];
     at = n % 5 == 0 ? (clip.frames + 1) * random.uniform() - 1 : at + 2 * random.uniform() - 0.9;
     if (n % 7 == 0) at = std::round(at);
-    const RootPose root = unpacked.sample(clip, at, rotations.data());
+    const RootPose root = unpacked.sample(clip, at, {}, rotations.data());
     EXPECT_EQ(root.place, sample_pose(clip, at, expected.data()));
     EXPECT_EQ(root.heading, frame_at(clip, at).heading);
     EXPECT_EQ(rotations, expected);

@@ -151,35 +151,56 @@ struct LaneQuaternions : TurnBlock {
     }
   }
 
-  // These after the rotations `from` [4, kBoneBlock], into [kBoneBlock, 4].
-  [[gnu::always_inline]] void write(const float* from, float (&to)[kBoneBlock][4]) const {
-    const float *a = from, *b = a + kBoneBlock, *c = b + kBoneBlock, *d = c + kBoneBlock;
+  // Turns by rotations [4, kBoneBlock] afterwards.
+  [[gnu::always_inline]] void turn_by(const float* last) {
+    const float *p = last, *q = p + kBoneBlock, *r = q + kBoneBlock, *s = r + kBoneBlock;
+    for (int i = 0; i < kBoneBlock; ++i) turn_by(p[i], q[i], r[i], s[i], i);
+  }
+
+  // Turns one of them in the world.
+  [[gnu::always_inline]] void turn_by(int lane, const PlaneTurn& half) {
+    const auto c = static_cast<float>(half.cosine), s = static_cast<float>(half.sine);
+    for (int i = 0; i < kBoneBlock; ++i) turn_by(i == lane ? c : 1, 0, 0, i == lane ? s : 0, i);
+  }
+
+  // Turns by what is left of the turns of a block, of which so many are in a row.
+  [[gnu::always_inline]] void turn_by(const FadingTurns& fading, const float* turns, int row) {
+    const float *u = turns, *v = u + row, *t = v + row, *to_u = t + row, *to_v = to_u + row, *to_t = to_v + row;
+    const float offset = fading.offset, speed = fading.speed;
     for (int i = 0; i < kBoneBlock; ++i) {
-      to[i][0] = a[i] * w[i] - b[i] * x[i] - c[i] * y[i] - d[i] * z[i];
-      to[i][1] = a[i] * x[i] + b[i] * w[i] + c[i] * z[i] - d[i] * y[i];
-      to[i][2] = a[i] * y[i] - b[i] * z[i] + c[i] * w[i] + d[i] * x[i];
-      to[i][3] = a[i] * z[i] + b[i] * y[i] - c[i] * x[i] + d[i] * w[i];
+      const float a = offset * u[i] + speed * to_u[i], b = offset * v[i] + speed * to_v[i],
+                  c = offset * t[i] + speed * to_t[i], square = a * a + b * b + c * c, scale = 1 / (1 + square);
+      turn_by((1 - square) * scale, 2 * scale * a, 2 * scale * b, 2 * scale * c, i);
     }
   }
-};
 
-// Turns a block of bones from their usual rotations, in the mirror where the clip is an image.
-[[gnu::always_inline]] inline void write_block(LaneQuaternions& turns, const PackedClip& clip, int block,
-                                               double* rotations) {
-  const PoseGrid& grid = *clip.grid;
-  const int first = kBoneBlock * block, count = std::min(kBoneBlock, grid.bones - first);
-  const std::size_t lanes = std::size_t{4} * first;
-  float written[kBoneBlock][4];
-  if (clip.mirrored) {
-    turns.turn_after(&grid.mirror.after[lanes]);
-    turns.write(&grid.mirror.before[lanes], written);
-    for (int i = 0; i < count; ++i)
-      std::copy_n(written[i], 4, rotations + std::ptrdiff_t{4} * grid.mirror.counterparts[first + i]);
-  } else {
-    turns.write(&grid.usual[lanes], written);
-    std::copy_n(&written[0][0], count < kBoneBlock ? 4 * count : 4 * kBoneBlock, rotations + lanes);
+  // Into [bones, 4], of a block of bones in the clip's order.
+  [[gnu::always_inline]] void write(const PackedClip& clip, int first, double* rotations) const {
+    float written[kBoneBlock][4];
+    for (int i = 0; i < kBoneBlock; ++i) {
+      written[i][0] = w[i];
+      written[i][1] = x[i];
+      written[i][2] = y[i];
+      written[i][3] = z[i];
+    }
+    const int count = std::min(kBoneBlock, clip.grid->bones - first);
+    if (clip.mirrored) {
+      for (int i = 0; i < count; ++i)
+        std::copy_n(written[i], 4, rotations + std::ptrdiff_t{4} * clip.grid->mirror.counterparts[first + i]);
+    } else {
+      std::copy_n(&written[0][0], count < kBoneBlock ? 4 * count : 4 * kBoneBlock, rotations + std::ptrdiff_t{4} * first);
+    }
   }
-}
+
+ private:
+  [[gnu::always_inline]] void turn_by(float a, float b, float c, float d, int i) {
+    const float p = w[i], q = x[i], r = y[i], s = z[i];
+    w[i] = a * p - b * q - c * r - d * s;
+    x[i] = a * q + b * p + c * s - d * r;
+    y[i] = a * r - b * s + c * p + d * q;
+    z[i] = a * s + b * r - c * q + d * p;
+  }
+};
 
 // Writes the turns of a block of bones in a pose, which begin at a bit of it, and in a second one where there is one:
 // both at once take less time. Returns the bit after them.
@@ -198,11 +219,22 @@ FRAGMOTION_VECTORISED unsigned unpack_block(const PackedClip& clip, int block, c
   return bit;
 }
 
-// Writes the rotations of a block of bones that are so far from the turns of a pose to those of the next.
+// Writes the rotations of a block of bones that are so far from the turns of a pose to those of the next, and turned
+// further; without the fading turns into `plain`.
 FRAGMOTION_VECTORISED void blend_block(const PackedClip& clip, int block, const TurnBlock& pose, const TurnBlock& next,
-                                       float weight, double* rotations) {
+                                       float weight, const PoseTurns& further, TurnBlock& plain, double* rotations) {
+  const PoseGrid& grid = *clip.grid;
+  const int first = kBoneBlock * block, row = std::min(kBoneBlock, grid.bones - first);
+  const std::size_t lanes = std::size_t{4} * first;
   LaneQuaternions turns(pose, next, weight);
-  write_block(turns, clip, block, rotations);
+  if (clip.mirrored) turns.turn_after(&grid.mirror.after[lanes]);
+  turns.turn_by(clip.mirrored ? &grid.mirror.before[lanes] : &grid.usual[lanes]);
+  const int hips = clip.lane_of(further.hips) - first;
+  if (hips >= 0 && hips < kBoneBlock) turns.turn_by(hips, further.half);
+  plain = turns;
+  const FadingTurns& fading = further.fading;
+  if (fading.lanes != nullptr) turns.turn_by(fading, fading.lanes + std::ptrdiff_t{6} * first, row);
+  turns.write(clip, first, rotations);
 }
 
 }  // namespace
@@ -257,17 +289,17 @@ Vector3 sample_pose(const PackedClip& clip, double at, int bones, double* rotati
   unsigned bit = between.root(clip, root);
   const bool is_between = between.weight > 0;
   for (int block = 0; block < blocks; ++block) {
-    TurnBlock pose, next;  // NOLINT(cppcoreguidelines-pro-type-member-init): unpack_block() fills them
+    TurnBlock pose, next, plain;  // NOLINT(cppcoreguidelines-pro-type-member-init): these functions fill them
     bit = unpack_block(clip, block, between.pose, is_between ? between.next : nullptr, bit, pose, next);
-    blend_block(clip, block, pose, is_between ? next : pose, static_cast<float>(between.weight), rotations);
+    blend_block(clip, block, pose, is_between ? next : pose, static_cast<float>(between.weight), {}, plain, rotations);
   }
   return {root[0], root[1], root[2]};
 }
 
 UnpackedPoses::UnpackedPoses(int bones)
-    : blocks_((bones + kBoneBlock - 1) / kBoneBlock), turns_(packed_.size() * blocks_) {}
+    : blocks_((bones + kBoneBlock - 1) / kBoneBlock), turns_(packed_.size() * blocks_), plain_(blocks_) {}
 
-RootPose UnpackedPoses::sample(const PackedClip& clip, double at, double* rotations) {
+RootPose UnpackedPoses::sample(const PackedClip& clip, double at, const PoseTurns& further, double* rotations) {
   const PackedBetween between(clip, at);
   double root[PackedPoses::kRootNumbers];
   unsigned bit = between.root(clip, root);
@@ -282,7 +314,8 @@ RootPose UnpackedPoses::sample(const PackedClip& clip, double at, double* rotati
     } else if (lacks_next) {
       bit = unpack_block(clip, block, between.next, nullptr, bit, next[block], next[block]);
     }
-    blend_block(clip, block, pose[block], next[block], static_cast<float>(between.weight), rotations);
+    blend_block(clip, block, pose[block], next[block], static_cast<float>(between.weight), further, plain_[block],
+                rotations);
   }
   return {{root[0], root[1], root[2]}, root[3]};
 }

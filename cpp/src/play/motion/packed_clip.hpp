@@ -67,6 +67,9 @@ struct PackedClip {
   std::shared_ptr<const PackedPoses> poses;
   std::vector<Marker> markers = {};
   bool mirrored = false;  ///< The poses are the original's, and this clip shows their mirror image in x = 0.
+
+  /// The number of a bone in the clip's own order, in which its poses are computed: that of the bone whose image it is.
+  int lane_of(int bone) const { return mirrored && bone >= 0 ? grid->mirror.counterparts[bone] : bone; }
 };
 
 /// The mirror image of a packed clip, in a grid that has a mirror, of which it shares the poses.
@@ -104,19 +107,41 @@ struct TurnBlock {
   float w[kBoneBlock], x[kBoneBlock], y[kBoneBlock], z[kBoneBlock];
 };
 
+/// Turns of bones that fade: `offset` times a turn and `speed` times its change, each as modified Rodrigues parameters.
+struct FadingTurns {
+  /// Of kBoneBlock bones in the clip's own order, or of those that are left, x, y and z of the turn and then of its
+  /// change, and kBoneBlock numbers that may be read beyond the last; null: none.
+  const float* lanes = nullptr;
+  float offset = 0, speed = 0;
+};
+
+/// How a pose is turned further: the hips, if any, in the world, by twice an angle, and then all bones.
+struct PoseTurns {
+  int hips = -1;
+  PlaneTurn half{1, 0};
+  FadingTurns fading = {};
+};
+
 /// The poses that were unpacked last of clips of one skeleton, since what plays asks for the same ones again and again.
 /// Allocates nothing once it is made.
 class UnpackedPoses {
  public:
   explicit UnpackedPoses(int bones);
 
-  /// sample_pose() and root_at() to the bit. The clip's poses must outlive this.
-  RootPose sample(const PackedClip& clip, double at, double* rotations);
+  /// sample_pose() and root_at() to the bit, but that rotations are turned further. The clip's poses must outlive this.
+  RootPose sample(const PackedClip& clip, double at, const PoseTurns& further, double* rotations);
+  /// The rotation of a bone, by its PackedClip::lane_of(), in what was sampled last, without what fades.
+  Quaternion plain(int lane) const {
+    const TurnBlock& block = plain_[lane / kBoneBlock];
+    const int i = lane % kBoneBlock;
+    return {block.w[i], block.x[i], block.y[i], block.z[i]};
+  }
 
  private:
   int blocks_;
   std::array<const std::uint8_t*, 16> packed_{};  // those of half a second, which come to places by their frames
   std::vector<TurnBlock> turns_;                  // [poses, blocks]
+  std::vector<TurnBlock> plain_;
 };
 
 }  // namespace fragmotion

@@ -49,8 +49,8 @@ void FragmentSelector::extrapolate_end(const Fragment& fragment) const {
   const PackedClip& clip = style_->character->pool.clips[fragment.clip];
   double* rotations = workspace_->poses[0].rotations.data();
   const double end = fragment.last_played();
-  before.pose(workspace_->unpacked.sample(clip, end - kEntry * clip.rate, rotations).place, rotations);
-  const RootPose root = workspace_->unpacked.sample(clip, end, rotations);
+  before.pose(workspace_->unpacked.sample(clip, end - kEntry * clip.rate, {}, rotations).place, rotations);
+  const RootPose root = workspace_->unpacked.sample(clip, end, {}, rotations);
   now.pose(root.place, rotations);
   extrapolate(root.frame(), before, now);
 }

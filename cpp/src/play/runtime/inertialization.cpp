@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "base/filtered.hpp"
-#include "base/vectorised.hpp"
 #include "motion/pose.hpp"
 
 namespace fragmotion {
@@ -17,45 +16,6 @@ Vector3 turn_of(const Quaternion& q) { return q.vec() / (1 + q.w()); }
 
 // Rounding errors are no offset: their squares are denormal numbers, with which processors are slow.
 float rounded(double value) { return std::abs(value) < 1e-12 ? 0.0F : static_cast<float>(value); }
-
-// Turns the rotations of a block of bones, of whose offsets so many are in a row.
-[[gnu::always_inline]] inline void turn_block(const float* offsets, int row, float offset, float speed,
-                                              double* rotations) {
-  const float *x = offsets, *y = x + row, *z = y + row, *to_x = z + row, *to_y = to_x + row, *to_z = to_y + row;
-  float turn[4][kBoneBlock];
-  for (int i = 0; i < kBoneBlock; ++i) {
-    const float a = offset * x[i] + speed * to_x[i], b = offset * y[i] + speed * to_y[i],
-                c = offset * z[i] + speed * to_z[i], square = a * a + b * b + c * c, scale = 1 / (1 + square);
-    turn[0][i] = (1 - square) * scale;
-    turn[1][i] = 2 * scale * a;
-    turn[2][i] = 2 * scale * b;
-    turn[3][i] = 2 * scale * c;
-  }
-  for (int i = 0; i < kBoneBlock; ++i) {
-    double* q = rotations + std::ptrdiff_t{4} * i;
-    const auto a = static_cast<float>(q[0]), b = static_cast<float>(q[1]), c = static_cast<float>(q[2]),
-               d = static_cast<float>(q[3]);
-    const float w = turn[0][i], r = turn[1][i], s = turn[2][i], t = turn[3][i];
-    q[0] = w * a - r * b - s * c - t * d;
-    q[1] = w * b + r * a + s * d - t * c;
-    q[2] = w * c - r * d + s * a + t * b;
-    q[3] = w * d + r * c - s * b + t * a;
-  }
-}
-
-// Turns the rotations [bones, 4] further by what is left of the offsets and the speeds.
-FRAGMOTION_VECTORISED void add_turns(const float* offsets, int bones, float offset, float speed, double* rotations) {
-  for (; bones >= kBoneBlock; bones -= kBoneBlock, offsets += 6 * kBoneBlock, rotations += 4 * kBoneBlock)
-    turn_block(offsets, kBoneBlock, offset, speed, rotations);
-  if (bones == 0) return;
-  // Bones that are no whole block, with room for one: beyond them is what nobody asks for.
-  float few[6 * kBoneBlock] = {};
-  double turned[4 * kBoneBlock] = {};
-  std::copy_n(offsets, 6 * bones, few);
-  std::copy_n(rotations, 4 * bones, turned);
-  turn_block(few, bones, offset, speed, turned);
-  std::copy_n(turned, 4 * bones, rotations);
-}
 
 }  // namespace
 
@@ -70,10 +30,10 @@ TurnOffset turn_offset(const double* old, const double* old_later, const double*
 }
 
 Inertialization::Inertialization(int bones, const StitchConstants& constants)
-    : constants_(&constants), offsets_(std::size_t{6} * bones) {}
+    : constants_(&constants), bones_(bones), offsets_(std::size_t{6} * bones + kBoneBlock) {}
 
 Vector2 Inertialization::begin(const WorldPose& old, const WorldPose& old_later, const WorldPose& fresh,
-                               const WorldPose& fresh_later, double apart, double seconds) {
+                               const WorldPose& fresh_later, double apart, double seconds, const PackedClip* clip) {
   damping_ = constants_->fades / seconds;
   end_ = kUnseen * seconds;
   root_ = old.root - fresh.root;
@@ -81,31 +41,32 @@ Vector2 Inertialization::begin(const WorldPose& old, const WorldPose& old_later,
   root_speed_ = {0, 0, faster.z()};
   heading_ = old.heading - fresh.heading;
   heading_speed_ = (old_later.heading - old.heading - (fresh_later.heading - fresh.heading)) / apart;
-  for (int b = 0; b < bones(); ++b) {
+  for (int b = 0; b < bones_; ++b) {
     const std::ptrdiff_t at = std::ptrdiff_t{4} * b;
-    keep(b, turn_offset(&old.rotations[at], &old_later.rotations[at], &fresh.rotations[at], &fresh_later.rotations[at],
+    keep(clip != nullptr ? clip->lane_of(b) : b,
+         turn_offset(&old.rotations[at], &old_later.rotations[at], &fresh.rotations[at], &fresh_later.rotations[at],
                         apart));
   }
   return faster.head<2>();
 }
 
-// Where one of the six values of a bone is kept.
-std::size_t Inertialization::slot(int bone, int value) const {
-  const int lane = bone % kBoneBlock, first = bone - lane, count = std::min(kBoneBlock, bones() - first);
-  return std::size_t{6} * first + static_cast<std::size_t>(value) * count + lane;
+// Where one of the six values of a lane is kept.
+std::size_t Inertialization::slot(int lane, int value) const {
+  const int in_block = lane % kBoneBlock, first = lane - in_block, count = std::min(kBoneBlock, bones_ - first);
+  return std::size_t{6} * first + static_cast<std::size_t>(value) * count + in_block;
 }
 
-void Inertialization::keep(int bone, const TurnOffset& offset) {
+void Inertialization::keep(int lane, const TurnOffset& offset) {
   for (int axis = 0; axis < 3; ++axis) {
-    offsets_[slot(bone, axis)] = rounded(offset.turn[axis]);
-    offsets_[slot(bone, 3 + axis)] = rounded(offset.turning[axis]);
+    offsets_[slot(lane, axis)] = rounded(offset.turn[axis]);
+    offsets_[slot(lane, 3 + axis)] = rounded(offset.turning[axis]);
   }
 }
 
-Quaternion Inertialization::left(int bone, const Fade& fade) const {
+Quaternion Inertialization::turn(int lane, const Fade& left) const {
   Vector3 turn;
   for (int axis = 0; axis < 3; ++axis) {
-    turn[axis] = fade.offset * offsets_[slot(bone, axis)] + fade.speed * offsets_[slot(bone, 3 + axis)];
+    turn[axis] = left.offset * offsets_[slot(lane, axis)] + left.speed * offsets_[slot(lane, 3 + axis)];
   }
   const double square = turn.squaredNorm();
   Quaternion q;
@@ -119,21 +80,25 @@ Fade Inertialization::fade(double damping, double time) const {
   return {(1 + damping * time) * fades, time * (damping < calms ? std::exp(-calms * time) : fades)};
 }
 
-void Inertialization::apply(double time, WorldPose& pose) const {
-  if (!active(time)) return;
-  const Fade left = fade(damping_, time);
-  move(left, pose);
-  add_turns(offsets_.data(), bones(), static_cast<float>(left.offset), static_cast<float>(left.speed),
-            pose.rotations.data());
-}
+Fade Inertialization::left(double time) const { return active(time) ? fade(damping_, time) : Fade{}; }
 
-void Inertialization::move(double time, WorldPose& pose) const {
-  if (active(time)) move(fade(damping_, time), pose);
+FadingTurns Inertialization::turns(const Fade& left) const {
+  if (left.offset == 0) return {};
+  return {offsets_.data(), static_cast<float>(left.offset), static_cast<float>(left.speed)};
 }
 
 void Inertialization::move(const Fade& left, WorldPose& pose) const {
   pose.root += left.offset * root_ + left.speed * root_speed_;
   pose.heading += left.offset * heading_ + left.speed * heading_speed_;
+}
+
+void Inertialization::apply(double time, WorldPose& pose) const {
+  const Fade left = this->left(time);
+  move(left, pose);
+  for (int b = 0; b < bones_ && left.offset != 0; ++b) {
+    double* rotation = &pose.rotations[std::size_t{4} * b];
+    store_quaternion(product(turn(b, left), load_quaternion(rotation)), rotation);
+  }
 }
 
 }  // namespace fragmotion

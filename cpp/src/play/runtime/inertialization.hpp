@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "base/simd.hpp"
+#include "motion/packed_clip.hpp"
 #include "motion/pose.hpp"
 #include "runtime/player_constants.hpp"
 
@@ -20,7 +21,7 @@ TurnOffset turn_offset(const double* old, const double* old_later, const double*
 
 /// What is left of the offsets and of the speeds of a stitch that fades like a critically damped spring.
 struct Fade {
-  double offset, speed;
+  double offset = 0, speed = 0;
 };
 
 /// A stitch that keeps pose and velocity (D. Bollo, "Inertialization: high-performance animation transitions in Gears
@@ -42,37 +43,41 @@ class Inertialization {
 
   /// From `old` to `fresh`: after `seconds` little of the offset is left (StitchConstants), after four times that
   /// nothing. The poses are those of turn_offset(). Returns how much faster the old root goes over the ground, m/s.
+  /// Turns are kept in the order of the clip that is shown fresh, or without one in that of the bones.
   Vector2 begin(const WorldPose& old, const WorldPose& old_later, const WorldPose& fresh, const WorldPose& fresh_later,
-                double apart, double seconds);
+                double apart, double seconds, const PackedClip* clip = nullptr);
 
   /// Lets its memory be on its way to the processor.
   void prefetch() const { fragmotion::prefetch(offsets_.data(), offsets_.size()); }
 
-  /// Adds what is left `time` seconds after the beginning.
+  /// What is left `time` seconds after the beginning.
+  Fade left(double time) const;
+  /// The turns of which so much is left.
+  FadingTurns turns(const Fade& left) const;
+  /// Adds it to the hips' place and the heading.
+  void move(const Fade& left, WorldPose& pose) const;
+  /// Adds what is left `time` seconds after the beginning to a pose of no clip.
   void apply(double time, WorldPose& pose) const;
-  /// The same of the hips' place and the heading alone.
-  void move(double time, WorldPose& pose) const;
 
   const StitchConstants& constants() const { return *constants_; }
   /// `time` seconds after the beginning of a stitch of this damping, 1/s.
   Fade fade(double damping, double time) const;
-  /// Keeps another offset of a bone, whose own is lost.
-  void keep(int bone, const TurnOffset& offset);
-  /// The rotation that is left of what is kept of a bone.
-  Quaternion left(int bone, const Fade& fade) const;
+  /// Keeps another offset of a bone, by its number in the order of the clip, whose own is lost.
+  void keep(int lane, const TurnOffset& offset);
+  /// The rotation of which so much is left.
+  Quaternion turn(int lane, const Fade& left) const;
 
  private:
   friend struct PlayerState;
 
-  int bones() const { return static_cast<int>(offsets_.size()) / 6; }
-  std::size_t slot(int bone, int value) const;
-  void move(const Fade& left, WorldPose& pose) const;
+  std::size_t slot(int lane, int value) const;
 
   const StitchConstants* constants_;
+  int bones_;
   double damping_ = 0, end_ = 0;  // 1/s, s
   Vector3 root_ = Vector3::Zero(), root_speed_ = Vector3::Zero();
   double heading_ = 0, heading_speed_ = 0;
-  // Of kBoneBlock bones, or those that are left, x, y and z of the turn and then of its change.
+  // As FadingTurns has them.
   std::vector<float> offsets_;
 };
 

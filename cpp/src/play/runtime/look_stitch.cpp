@@ -16,18 +16,14 @@ Quaternion to_frame_of(const WorldPose& pose) { return CharacterFrame{{}, -pose.
 
 }  // namespace
 
-// How the bone that the neck is on is turned in the world.
-Quaternion LookStitch::turn_below(const WorldPose& pose) const {
-  const Skeleton& skeleton = workspace_->kinematics.skeleton();
-  return world_turn(skeleton, skeleton.parents[workspace_->look.front()], pose.rotations.data());
-}
-
 // Writes how neck and head are turned, which is seen after a rotation, as the pose of a body that is these bones.
-void LookStitch::see(const WorldPose& pose, const Quaternion& after, WorldPose& look) const {
-  Quaternion seen = product(after, turn_below(pose));
+template <typename Local>
+void LookStitch::see(const Local& local, const Quaternion& after, WorldPose& look) const {
+  const Skeleton& skeleton = workspace_->kinematics.skeleton();
+  Quaternion seen = product(after, world_turn_by(skeleton, skeleton.parents[workspace_->look.front()], local));
   double* out = look.rotations.data();
   for (const int bone : workspace_->look) {
-    seen = product(seen, load_quaternion(&pose.rotations[std::size_t{4} * bone]));
+    seen = product(seen, local(bone));
     store_quaternion(seen, out);
     out += 4;
   }
@@ -36,12 +32,13 @@ void LookStitch::see(const WorldPose& pose, const Quaternion& after, WorldPose& 
 // An offset fades exp(-1) times its damping as fast at its fastest.
 void LookStitch::begin(const WorldPose& old, const WorldPose& old_later, const WorldPose& fresh,
                        const WorldPose& fresh_later, double apart, double seconds, double turning,
-                       Inertialization& body) {
+                       const PackedClip& clip, Inertialization& body) {
   if (workspace_->look.empty()) return;
   auto& looks = workspace_->looks;
   const std::array poses{&old, &old_later, &fresh, &fresh_later};
   const Quaternion to_frame = to_frame_of(fresh);
-  for (std::size_t i = 0; i < looks.size(); ++i) see(*poses[i], to_frame, looks[i]);
+  for (std::size_t i = 0; i < looks.size(); ++i)
+    see([&](int bone) { return load_quaternion(&poses[i]->rotations[std::size_t{4} * bone]); }, to_frame, looks[i]);
   const double fades = body.constants().fades;
   damping_ = fades / seconds;
   for (std::size_t i = 0; i < workspace_->look.size(); ++i) {
@@ -49,7 +46,7 @@ void LookStitch::begin(const WorldPose& old, const WorldPose& old_later, const W
     const TurnOffset offset = turn_offset(rotation(0), rotation(1), rotation(2), rotation(3), apart);
     const double most = std::max(0.0, (kTurnsAtMost - 1) * workspace_->fastest_looks[i] - std::abs(turning));
     damping_ = std::min(damping_, most / (std::exp(-1.0) * 4 * std::atan(offset.turn.norm())));
-    body.keep(workspace_->look[i], offset);
+    body.keep(clip.lane_of(workspace_->look[i]), offset);
   }
   damping_ = std::max(damping_, fades / std::max(kSlowestStitch, seconds));
 }
@@ -58,17 +55,18 @@ bool LookStitch::active(double time, const Inertialization& body) const {
   return damping_ > 0 && time < kUnseen * body.constants().fades / damping_;
 }
 
-void LookStitch::apply(double time, const Inertialization& body, WorldPose& pose) const {
-  if (!active(time, body)) return body.apply(time, pose);
+void LookStitch::apply(double time, const Inertialization& body, const PackedClip& clip, WorldPose& pose) const {
+  if (!active(time, body)) return;
   WorldPose& look = workspace_->looks[0];
   const Quaternion to_frame = to_frame_of(pose);
-  see(pose, to_frame, look);
-  body.apply(time, pose);
+  see([&](int bone) { return workspace_->unpacked.plain(clip.lane_of(bone)); }, to_frame, look);
   const Fade fade = body.fade(damping_, time);
-  Quaternion from = product(to_frame, turn_below(pose));
+  const Skeleton& skeleton = workspace_->kinematics.skeleton();
+  Quaternion from =
+      product(to_frame, world_turn(skeleton, skeleton.parents[workspace_->look.front()], pose.rotations.data()));
   const double* seen = look.rotations.data();
   for (const int bone : workspace_->look) {
-    const Quaternion turned = product(body.left(bone, fade), load_quaternion(seen));
+    const Quaternion turned = product(body.turn(clip.lane_of(bone), fade), load_quaternion(seen));
     store_quaternion(rounded_off(product(from.conjugate(), turned)), &pose.rotations[std::size_t{4} * bone]);
     from = turned;
     seen += 4;

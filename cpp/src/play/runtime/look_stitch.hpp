@@ -20,15 +20,16 @@ class LookStitch {
   /// As Inertialization::begin, of a body that is turned by `turning` rad/s beyond its motion and whose stitch `body`
   /// has just begun: neck's and head's offsets are kept there, in the place of those that it has of them.
   void begin(const WorldPose& old, const WorldPose& old_later, const WorldPose& fresh, const WorldPose& fresh_later,
-             double apart, double seconds, double turning, Inertialization& body);
-  /// Adds what is left of the body's stitch and of this one `time` seconds after their beginning.
-  void apply(double time, const Inertialization& body, WorldPose& pose) const;
+             double apart, double seconds, double turning, const PackedClip& clip, Inertialization& body);
+  /// Turns neck and head as they are `time` seconds after the beginning, in the pose of the clip that was sampled last
+  /// with the turns of the body's stitch, and whose heading has not been moved by it.
+  void apply(double time, const Inertialization& body, const PackedClip& clip, WorldPose& pose) const;
 
  private:
   friend struct PlayerState;
 
-  void see(const WorldPose& pose, const Quaternion& after, WorldPose& look) const;
-  Quaternion turn_below(const WorldPose& pose) const;
+  template <typename Local>
+  void see(const Local& local, const Quaternion& after, WorldPose& look) const;
   bool active(double time, const Inertialization& body) const;
 
   Workspace* workspace_;

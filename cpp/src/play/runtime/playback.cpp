@@ -53,40 +53,36 @@ Playback::Placed Playback::place(int style, int number, const CharacterFrame& fr
   return placed;
 }
 
-// Places hips and heading of a frame of the clip; returns by what all is turned.
-Quaternion Playback::put(const Placed& placed, const RootPose& root, WorldPose& pose) {
-  // By half the angle, for the quaternion as well as for the plane.
-  const PlaneTurn half(placed.heading / 2);
+// Places hips and heading of a frame of the clip, which is turned by twice half an angle.
+void Playback::put(const Placed& placed, const PlaneTurn& half, const RootPose& root, WorldPose& pose) {
   const auto [c, s] = half.twice();
   const Vector3& place = root.place;
   pose.root = {placed.offset.x() + c * place.x() - s * place.y(), placed.offset.y() + s * place.x() + c * place.y(),
                place.z()};
   pose.heading = placed.heading + root.heading;
-  return {half.cosine, 0, 0, half.sine};
 }
 
-void Playback::sample(const Placed& placed, WorldPose& pose) const {
+void Playback::sample(const Placed& placed, WorldPose& pose, const FadingTurns& fading) const {
   const PackedClip& source = clip(placed);
   const double at = fragment(placed).first_played() + placed.seconds * source.rate;
-  const Quaternion turn = put(placed, workspace_->unpacked.sample(source, at, pose.rotations.data()), pose);
-  double* hips = &pose.rotations[std::size_t{4} * character_->pool.skeleton.roles.hips];
-  store_quaternion(turn * load_quaternion(hips), hips);
+  const PlaneTurn half(placed.heading / 2);
+  const PoseTurns further{character_->pool.skeleton.roles.hips, half, fading};
+  put(placed, half, workspace_->unpacked.sample(source, at, further, pose.rotations.data()), pose);
 }
 
-void Playback::sample_stitched(Placed placed, double seconds, WorldPose& pose) const {
+void Playback::sample_stitched(Placed placed, double seconds, bool looks, WorldPose& pose) const {
   placed.seconds = seconds;
-  sample(placed, pose);
-  if (stitching_ == Stitching::inertialize) look_.apply(std::max(0.0, stitched_ + seconds), inertialization_, pose);
+  if (stitching_ != Stitching::inertialize) return sample(placed, pose);
+  const double time = std::max(0.0, stitched_ + seconds);
+  const Fade left = inertialization_.left(time);
+  sample(placed, pose, inertialization_.turns(left));
+  if (looks) look_.apply(time, inertialization_, clip(placed), pose);
+  inertialization_.move(left, pose);
 }
 
-void Playback::sample(double seconds, WorldPose& pose) const { sample_stitched(now_, seconds, pose); }
+void Playback::sample(double seconds, WorldPose& pose) const { sample_stitched(now_, seconds, true, pose); }
 
-void Playback::sample_body(double seconds, WorldPose& pose) const {
-  Placed placed = now_;
-  placed.seconds = seconds;
-  sample(placed, pose);
-  if (stitching_ == Stitching::inertialize) inertialization_.apply(std::max(0.0, stitched_ + seconds), pose);
-}
+void Playback::sample_body(double seconds, WorldPose& pose) const { sample_stitched(now_, seconds, false, pose); }
 
 Vector2 Playback::start(int fragment) { return start(place(style_, fragment, frame_)); }
 
@@ -121,9 +117,9 @@ Vector2 Playback::go_on(const Placed& next) {
 // Keeps the pose, and of velocities that of the mean of the steps alone.
 Vector2 Playback::begin_far_stitch(const Placed& old, const Vector2& went) {
   auto& [shown, unused, fresh, unused_too] = workspace_->poses;
-  sample_stitched(old, old.seconds, shown);
+  sample_stitched(old, old.seconds, true, shown);
   sample(now_, fresh);
-  inertialization_.begin(shown, shown, fresh, fresh, 1, stitch_);
+  inertialization_.begin(shown, shown, fresh, fresh, 1, stitch_, &clip(now_));
   look_.clear();
   return went - mean_travel().velocity;
 }
@@ -131,19 +127,20 @@ Vector2 Playback::begin_far_stitch(const Placed& old, const Vector2& went) {
 // Begins a stitch from the old fragment, as it is shown, to the one that plays now; returns what start() does.
 Vector2 Playback::begin_stitch(const Placed& old) {
   auto& [old_now, old_later, fresh, fresh_later] = workspace_->poses;
-  sample_stitched(old, old.seconds, old_now);
+  sample_stitched(old, old.seconds, true, old_now);
   if (fragment(old).first_played() + (old.seconds + kGameStep) * clip(old).rate <= clip(old).frames - 1) {
-    sample_stitched(old, old.seconds + kGameStep, old_later);
+    sample_stitched(old, old.seconds + kGameStep, true, old_later);
   } else {
-    sample_stitched(old, old.seconds - kGameStep, fresh);
+    sample_stitched(old, old.seconds - kGameStep, true, fresh);
     extrapolate(fresh, old_now, old_later);
   }
   sample(now_, fresh);
   Placed later = now_;
   later.seconds += kGameStep;
   sample(later, fresh_later);
-  const Vector2 faster = inertialization_.begin(old_now, old_later, fresh, fresh_later, kGameStep, stitch_);
-  look_.begin(old_now, old_later, fresh, fresh_later, kGameStep, stitch_, turning_, inertialization_);
+  const PackedClip& played = clip(now_);
+  const Vector2 faster = inertialization_.begin(old_now, old_later, fresh, fresh_later, kGameStep, stitch_, &played);
+  look_.begin(old_now, old_later, fresh, fresh_later, kGameStep, stitch_, turning_, played, inertialization_);
   return PlaneTurn(-frame_.heading) * faster;
 }
 
@@ -176,20 +173,17 @@ void Playback::move(const Vector2& velocity, double turn_rate, double seconds) {
 
 void Playback::show() {
   WorldPose& shown = workspace_->shown;
-  sample(now_, shown);
-  if (stitching_ == Stitching::inertialize) {
-    look_.apply(stitched_ + now_.seconds, inertialization_, shown);
-  } else if (now_.seconds < faded_) {
+  sample(now_.seconds, shown);
+  if (stitching_ == Stitching::crossfade && now_.seconds < faded_)
     crossfade(ease_in_ease_out(now_.seconds / faded_), shown);
-  }
   frame_ = {shown.root.head<2>(), shown.heading};
 }
 
 void Playback::find_frame() {
   if (stitching_ == Stitching::crossfade) return show();
   WorldPose place;
-  put(now_, root_at(clip(now_), at()), place);
-  inertialization_.move(stitched_ + now_.seconds, place);
+  put(now_, PlaneTurn(now_.heading / 2), root_at(clip(now_), at()), place);
+  inertialization_.move(inertialization_.left(stitched_ + now_.seconds), place);
   frame_ = {place.root.head<2>(), place.heading};
 }
 

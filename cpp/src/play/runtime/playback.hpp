@@ -135,9 +135,9 @@ class Playback {
   Placed place(int style, int number, const CharacterFrame& frame) const;
   Vector2 start(const Placed& next);
   void play(const Placed& placed);
-  static Quaternion put(const Placed& placed, const RootPose& root, WorldPose& pose);
-  void sample(const Placed& placed, WorldPose& pose) const;
-  void sample_stitched(Placed placed, double seconds, WorldPose& pose) const;
+  static void put(const Placed& placed, const PlaneTurn& half, const RootPose& root, WorldPose& pose);
+  void sample(const Placed& placed, WorldPose& pose, const FadingTurns& fading = {}) const;
+  void sample_stitched(Placed placed, double seconds, bool looks, WorldPose& pose) const;
   Vector2 begin_stitch(const Placed& old);
   Vector2 begin_far_stitch(const Placed& old, const Vector2& went);
   bool goes_on(const Placed& next) const;
