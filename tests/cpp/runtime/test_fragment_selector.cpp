@@ -273,7 +273,7 @@ int steps_out_of_turn_when_left(Choice& choice, bool known) {
     choice.workspace.styles = std::make_shared<const std::vector<FragmentLists>>(std::move(lists));
     choice.selector.change_style(0);
   }
-  const std::vector<EntrySteps> entries = entry_steps(c);
+  const std::vector<EntrySteps> entries = entry_steps(c, successors(c.pool.fragments));
   for (int fragment = 0; fragment < static_cast<int>(c.pool.fragments.size()); fragment += 3) {
     if (!(c.pool.fragments[fragment].evident.speed() > kMoving)) continue;
     for (int k = 0; k < c.classes.count; ++k) {

@@ -57,7 +57,7 @@ TEST(StepSequence, KnowsNothingOfABodyThatHasTakenNoStepOrHasNoFeet) {
 // Against the contacts, frame by frame, along the fragments that follow each other.
 TEST(StepSequence, FindsWhenFeetComeDownAfterAFragmentsBeginning) {
   const Character& c = *gait_character();
-  const std::vector<EntrySteps> all = entry_steps(c);
+  const std::vector<EntrySteps> all = entry_steps(c, successors(c.pool.fragments));
   ASSERT_EQ(all.size(), c.pool.fragments.size());
   const std::vector<int> next = successors(c.pool.fragments);
   int comes_down = 0, comes_round = 0;

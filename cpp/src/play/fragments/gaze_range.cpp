@@ -25,12 +25,20 @@ Vector3 Turned::forward() const {
   return sum.norm() > 0 ? sum.normalized() : Vector3::UnitY();
 }
 
-std::pair<std::vector<double>, std::vector<double>> Turned::angles(const Vector3& direction) const {
-  std::pair<std::vector<double>, std::vector<double>> angles;
+std::vector<double> Turned::turns(const Vector3& direction) const {
+  std::vector<double> angles;
   for (const Eigen::Quaternionf& seen : all_) {
     const Vector3 looks = seen.cast<double>() * direction;
-    angles.first.push_back(std::abs(std::atan2(-looks.x(), looks.y())));
-    angles.second.push_back(std::atan2(looks.z(), looks.head<2>().norm()));
+    angles.push_back(std::abs(std::atan2(-looks.x(), looks.y())));
+  }
+  return angles;
+}
+
+std::vector<double> Turned::pitches(const Vector3& direction) const {
+  std::vector<double> angles;
+  for (const Eigen::Quaternionf& seen : all_) {
+    const Vector3 looks = seen.cast<double>() * direction;
+    angles.push_back(std::atan2(looks.z(), looks.head<2>().norm()));
   }
   return angles;
 }
@@ -49,12 +57,12 @@ GazeRange GazeRanges::range() const {
   GazeRange range;
   if (head_turned_.empty()) return range;
   range.forward = head_turned_.forward();
-  const auto [turns, pitches] = head_turned_.angles(range.forward);
-  range.turn = std::max(kAside, quantile(turns, kUsualShare));
+  const std::vector<double> pitches = head_turned_.pitches(range.forward);
+  range.turn = std::max(kAside, quantile(head_turned_.turns(range.forward), kUsualShare));
   range.down = std::min(-kDown, quantile(pitches, 1 - kUsualShare));
   range.up = std::max(kUp, quantile(pitches, kUsualShare));
   if (chest_ >= 0) {
-    range.chest = std::min(range.turn, quantile(chest_turned_.angles(chest_turned_.forward()).first, kUsualShare));
+    range.chest = std::min(range.turn, quantile(chest_turned_.turns(chest_turned_.forward()), kUsualShare));
   }
   return range;
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <utility>
 #include <vector>
 
 #include "skeleton/skeleton.hpp"
@@ -22,8 +21,10 @@ class Turned {
   void add(const Quaternion& seen);
   /// Where it looks on the mean, as it sees it itself.
   Vector3 forward() const;
-  /// By how much a direction of its own is turned to a side, and how high it points, of all that were added.
-  std::pair<std::vector<double>, std::vector<double>> angles(const Vector3& direction) const;
+  /// By how much a direction of its own is turned to a side, of all that were added.
+  std::vector<double> turns(const Vector3& direction) const;
+  /// How high it points, likewise.
+  std::vector<double> pitches(const Vector3& direction) const;
   bool empty() const { return all_.empty(); }
 
  private:

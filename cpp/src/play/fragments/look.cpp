@@ -27,18 +27,22 @@ class Reader {
         fastest_(bones.size()) {}
 
   void read(const PackedClip& clip) {
-    const double apart = std::max(1.0, std::round(clip.rate / kPoseRate)),
-                 seen = apart * std::max(1.0, std::round(clip.rate / kPostureRate / apart));
-    for (double frame = 0; frame < clip.frames; frame += apart) {
+    const double apart = std::max(1.0, std::round(clip.rate / kPoseRate));
+    const int every = static_cast<int>(std::max(1.0, std::round(clip.rate / kPostureRate / apart)));
+    std::vector<double> most(bones_.size(), 0);  // tangents of half an angle
+    int pose = 0;
+    for (double frame = 0; frame < clip.frames; frame += apart, ++pose) {
       const Vector3 root = sample_pose(clip, frame, chain_.back() + 1, rotations_.data());
       kinematics_.world_below(root, rotations_.data(), chain_, heads_.data(), now_.data());
       for (std::size_t i = 0; frame > 0 && i < bones_.size(); ++i) {
-        const double angle = before_[bones_[i]].angularDistance(now_[bones_[i]]);
-        fastest_[i] = std::max(fastest_[i], static_cast<float>(angle * clip.rate / apart));
+        const Quaternion turn = product(now_[bones_[i]], before_[bones_[i]].conjugate());
+        most[i] = std::max(most[i], turn.vec().norm() / std::abs(turn.w()));
       }
-      if (std::fmod(frame, seen) == 0) gaze_.add(frame_at(clip, frame).heading, now_);
+      if (pose % every == 0) gaze_.add(frame_at(clip, frame).heading, now_);
       std::swap(now_, before_);
     }
+    for (std::size_t i = 0; i < most.size(); ++i)
+      fastest_[i] = std::max(fastest_[i], static_cast<float>(2 * std::atan(most[i]) * clip.rate / apart));
   }
 
   Looks looks() const { return {fastest_, gaze_.range()}; }

@@ -7,7 +7,6 @@
 
 #include "base/quantile.hpp"
 #include "fragments/entry_poses.hpp"
-#include "fragments/successors.hpp"
 
 namespace fragmotion {
 namespace {
@@ -22,16 +21,19 @@ struct Wrap {
 // The frames in which a foot comes down.
 [[gnu::cold]] std::vector<int> strikes(const std::vector<bool>& stands) {
   std::vector<int> frames;
-  for (std::size_t f = 1; f < stands.size(); ++f) {
-    if (stands[f] && !stands[f - 1]) frames.push_back(static_cast<int>(f));
+  bool stood = true;
+  int frame = 0;
+  for (const bool now : stands) {
+    if (now && !stood) frames.push_back(frame);
+    stood = now;
+    ++frame;
   }
   return frames;
 }
 
 // Of each clip.
-std::vector<Wrap> wraps(const Character& character) {
+std::vector<Wrap> wraps(const Character& character, const std::vector<int>& next) {
   const std::vector<Fragment>& fragments = character.pool.fragments;
-  const std::vector<int> next = successors(fragments);
   std::vector<Wrap> all(character.pool.clips.size());
   for (std::size_t f = 0; f < next.size(); ++f) {
     if (next[f] < 0 || fragments[next[f]].first_played() == fragments[f].last_played()) continue;
@@ -60,9 +62,9 @@ void StepSequence::advance(const std::array<bool, 2>& now, double seconds) {
   stands = now;
 }
 
-[[gnu::cold]] std::vector<EntrySteps> entry_steps(const Character& character) {
+[[gnu::cold]] std::vector<EntrySteps> entry_steps(const Character& character, const std::vector<int>& successors) {
   std::vector<EntrySteps> all;
-  const std::vector<Wrap> wraps = fragmotion::wraps(character);
+  const std::vector<Wrap> wraps = fragmotion::wraps(character, successors);
   std::vector<std::array<std::vector<int>, 2>> strikes;
   for (const Contacts& contacts : character.contacts)
     strikes.push_back({fragmotion::strikes(contacts.feet[0]), fragmotion::strikes(contacts.feet[1])});

@@ -26,8 +26,8 @@ struct EntrySteps {
   std::array<float, 2> strikes{};
 };
 
-/// Of all fragments of a character.
-std::vector<EntrySteps> entry_steps(const Character& character);
+/// Of all fragments of a character, by their successors().
+std::vector<EntrySteps> entry_steps(const Character& character, const std::vector<int>& successors);
 
 /// A step takes no longer, s: feet that come down less often do not go on steps.
 constexpr double kLongestStep = 1;

@@ -27,8 +27,9 @@ Workspace::Workspace(const Character& character, const PlayerConstants& constant
     const Character& c = character.in_style(style);
     TransitionCost cost(c, constants.transition);
     std::vector<Entrants> members = cost.entrants();
-    lists.push_back(
-        {&c, std::move(members), entry_steps(c), std::move(cost), step_seconds(c), successors(c.pool.fragments)});
+    std::vector<int> next = successors(c.pool.fragments);
+    std::vector<EntrySteps> steps = entry_steps(c, next);
+    lists.push_back({&c, std::move(members), std::move(steps), std::move(cost), step_seconds(c), std::move(next)});
     most = std::max(most, c.pool.fragments.size());
     pools.push_back(&c.pool);
   }
