@@ -38,7 +38,7 @@ struct LeaningBody {
     for (double t = 0; t < seconds; t += kStep) {
       WorldPose pose{load_vector(clip.root_positions.data()), clip.headings[0], {}};
       pose.rotations.assign(clip.rotations.begin(), clip.rotations.begin() + std::ptrdiff_t{4} * skeleton.size());
-      lean.apply(skeleton, pose, acceleration, kStep);
+      lean.apply(skeleton, pose, acceleration, PlaneTurn(pose.heading), filtered(kStep, LeanConstants{}.follows));
       PosedBones posed(skeleton.size());
       kinematics.world(pose.root, pose.rotations.data(), posed.heads.data(), posed.rotations.data());
       const CharacterFrame frame{pose.root.head<2>(), pose.heading};
@@ -77,7 +77,7 @@ TEST(Lean, TurnsThighsHipsSpineAndHeadAsTheyAreTurnedOneAfterAnother) {
   WorldPose pose{load_vector(body.clip.root_positions.data()), body.clip.headings[0], {}};
   pose.rotations.assign(body.clip.rotations.begin(), body.clip.rotations.begin() + std::ptrdiff_t{4} * skeleton.size());
   std::vector<double> expected = pose.rotations;
-  body.lean.apply(skeleton, pose, acceleration, kStep);
+  body.lean.apply(skeleton, pose, acceleration, PlaneTurn(pose.heading), filtered(kStep, LeanConstants{}.follows));
   const double angle = 0.5 * std::atan(5 / 9.81);
   const Vector3 right{std::cos(pose.heading), std::sin(pose.heading), 0}, forward{-right.y(), right.x(), 0};
   const double to_side = angle * acceleration.x() / 5, to_front = angle * acceleration.y() / 5;

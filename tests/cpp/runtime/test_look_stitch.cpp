@@ -79,8 +79,7 @@ TEST(LookStitch, TurnsTheHeadNoFasterThanHeadsDoWhileTheBodyIsThereSooner) {
   EXPECT_GT(stitch.fastest(), (kTurnsAtMost - 1) * kFastest * 0.9);
   const int below = stitch.workspace.kinematics.skeleton().parents[stitch.workspace.look.front()];
   for (int i = 0; i < 4; ++i) {
-    EXPECT_EQ(stitch.shown(kStitched).rotations[4 * below + i],
-              stitch.body_alone(kStitched).rotations[4 * below + i]);
+    EXPECT_EQ(stitch.shown(kStitched).rotations[4 * below + i], stitch.body_alone(kStitched).rotations[4 * below + i]);
   }
 }
 

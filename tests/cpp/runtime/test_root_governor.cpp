@@ -22,7 +22,8 @@ int forward_fragment(const Character& c) {
 // One that lets a body be accelerated so much, m/s^2.
 RootGovernor governor_of(const Character& character, double adjustment, double acceleration) {
   static const RootLimits limits;
-  return {character, limits, adjustment, 1 - limits.acceleration / 2 / character.space.scale() / acceleration};
+  static Filter settles(limits.settles);
+  return {character, limits, settles, adjustment, 1 - limits.acceleration / 2 / character.space.scale() / acceleration};
 }
 
 // How far the character gets in half a second in which only the root adjustment moves it, m in its own frame, and the

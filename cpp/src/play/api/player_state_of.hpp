@@ -112,6 +112,7 @@ void PlayerState::exchange(Archive& a, Playback& playback, int of_style, const N
   a.number(playback.look_.damping_, 0, 1e15);
   a.number(playback.turning_, -kMostSpeed, kMostSpeed);
   frame(a, playback.frame_);
+  if constexpr (Archive::kKeeps) playback.facing_ = PlaneTurn(playback.frame_.heading);
 }
 
 template <typename Archive>

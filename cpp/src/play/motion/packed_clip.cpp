@@ -188,7 +188,8 @@ struct LaneQuaternions : TurnBlock {
       for (int i = 0; i < count; ++i)
         std::copy_n(written[i], 4, rotations + std::ptrdiff_t{4} * clip.grid->mirror.counterparts[first + i]);
     } else {
-      std::copy_n(&written[0][0], count < kBoneBlock ? 4 * count : 4 * kBoneBlock, rotations + std::ptrdiff_t{4} * first);
+      std::copy_n(&written[0][0], count < kBoneBlock ? 4 * count : 4 * kBoneBlock,
+                  rotations + std::ptrdiff_t{4} * first);
     }
   }
 

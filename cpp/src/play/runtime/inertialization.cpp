@@ -43,9 +43,8 @@ Vector2 Inertialization::begin(const WorldPose& old, const WorldPose& old_later,
   heading_speed_ = (old_later.heading - old.heading - (fresh_later.heading - fresh.heading)) / apart;
   for (int b = 0; b < bones_; ++b) {
     const std::ptrdiff_t at = std::ptrdiff_t{4} * b;
-    keep(clip != nullptr ? clip->lane_of(b) : b,
-         turn_offset(&old.rotations[at], &old_later.rotations[at], &fresh.rotations[at], &fresh_later.rotations[at],
-                        apart));
+    keep(clip != nullptr ? clip->lane_of(b) : b, turn_offset(&old.rotations[at], &old_later.rotations[at],
+                                                             &fresh.rotations[at], &fresh_later.rotations[at], apart));
   }
   return faster.head<2>();
 }

@@ -3,7 +3,6 @@
 
 #include <cmath>
 
-#include "base/filtered.hpp"
 #include "base/rounding.hpp"
 
 namespace fragmotion {
@@ -21,15 +20,15 @@ Quaternion about(const Vector3& axis, const PlaneTurn& half) {
 
 }  // namespace
 
-void Lean::apply(const Skeleton& skeleton, WorldPose& pose, const Vector2& acceleration, double seconds) {
+void Lean::apply(const Skeleton& skeleton, WorldPose& pose, const Vector2& acceleration, const PlaneTurn& facing,
+                 double part) {
   const Vector2 wanted = clamp_length(scale_ * acceleration, kHard);
-  const double part = filtered(seconds, constants_.follows);
   pushed_ += part * (wanted - pushed_);
   acceleration_ += part * (pushed_ - acceleration_);
   const double strength = acceleration_.norm();
   if (strength < kRounding || trunk_.base < 0) return;
   const Vector2 lean = constants_.share * std::atan(strength / kGravity) / strength * acceleration_;
-  lean_by(skeleton, lean, PlaneTurn(pose.heading), pose.rotations.data());
+  lean_by(skeleton, lean, facing, pose.rotations.data());
 }
 
 // Forward from the hips on, and aside by the spine; the legs stay as they are. What is above is turned first, so that

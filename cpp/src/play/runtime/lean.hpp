@@ -27,9 +27,10 @@ class Lean {
   void reset() { pushed_ = acceleration_ = Vector2::Zero(); }
   /// Which it has followed, m/s^2 of a 1.8 m character, in the character frame.
   const Vector2& acceleration() const { return acceleration_; }
-  /// Changes the pose that is shown `seconds` after the last one, of a body that is accelerated by so many m/s^2 in the
-  /// character frame.
-  void apply(const Skeleton& skeleton, WorldPose& pose, const Vector2& acceleration, double seconds);
+  /// Changes the next pose that is shown, of a body that faces so and is accelerated by so many m/s^2 in the character
+  /// frame; `part`: filtered() of LeanConstants::follows since the last one.
+  void apply(const Skeleton& skeleton, WorldPose& pose, const Vector2& acceleration, const PlaneTurn& facing,
+             double part);
 
  private:
   friend struct PlayerState;

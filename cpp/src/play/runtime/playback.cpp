@@ -163,7 +163,7 @@ void Playback::pass_markers(double after, double until) {
 
 void Playback::move(const Vector2& velocity, double turn_rate, double seconds) {
   turning_ = turn_rate;
-  const Vector2 root = frame_.position, way = seconds * (PlaneTurn(frame_.heading) * velocity);
+  const Vector2 root = frame_.position, way = seconds * (facing_ * velocity);
   const PlaneTurn turn(seconds * turn_rate);
   for (Placed* placed : {&now_, &before_}) {
     placed->heading += seconds * turn_rate;
@@ -176,7 +176,7 @@ void Playback::show() {
   sample(now_.seconds, shown);
   if (stitching_ == Stitching::crossfade && now_.seconds < faded_)
     crossfade(ease_in_ease_out(now_.seconds / faded_), shown);
-  frame_ = {shown.root.head<2>(), shown.heading};
+  stand(shown);
 }
 
 void Playback::find_frame() {
@@ -184,7 +184,12 @@ void Playback::find_frame() {
   WorldPose place;
   put(now_, PlaneTurn(now_.heading / 2), root_at(clip(now_), at()), place);
   inertialization_.move(inertialization_.left(stitched_ + now_.seconds), place);
-  frame_ = {place.root.head<2>(), place.heading};
+  stand(place);
+}
+
+void Playback::stand(const WorldPose& pose) {
+  frame_ = {pose.root.head<2>(), pose.heading};
+  facing_ = PlaneTurn(pose.heading);
 }
 
 // Goes so far from what played before to the pose.

@@ -114,6 +114,8 @@ class Playback {
   double faded() const { return faded_; }
   /// Where the character stands, as it was last shown.
   const CharacterFrame& frame() const { return frame_; }
+  /// The turn from the world to how it faces there.
+  const PlaneTurn& facing() const { return facing_; }
 
   void prefetch() const { inertialization_.prefetch(); }
 
@@ -144,6 +146,7 @@ class Playback {
   Vector2 go_on(const Placed& next);
   void pass_markers(double after, double until);
   void crossfade(double weight, WorldPose& pose) const;
+  void stand(const WorldPose& pose);
 
   const Character* character_;
   Workspace* workspace_;
@@ -162,6 +165,7 @@ class Playback {
   LookStitch look_;
   double turning_ = 0;  // rad/s, at which it was moved last
   CharacterFrame frame_;
+  PlaneTurn facing_{1, 0};
 };
 
 }  // namespace fragmotion

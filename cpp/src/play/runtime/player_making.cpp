@@ -32,7 +32,8 @@ Player::Player(std::shared_ptr<const Character> character, const PlayerOptions& 
                std::shared_ptr<Workspace> workspace)
     : character_(std::move(character)),
       workspace_(std::move(workspace)),
-      governor_(*character_, workspace_->constants.root, within_one(options.root_adjustment, "root adjustment"),
+      governor_(*character_, workspace_->constants.root, workspace_->settles,
+                within_one(options.root_adjustment, "root adjustment"),
                 within_one(options.responsiveness, "responsiveness")),
       director_(*character_, character_->policy(options.policy), options.responsiveness),
       selector_(*workspace_, options.seed),

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "base/filtered.hpp"
 #include "feet/standing_leg.hpp"
 #include "motion/contacts.hpp"
 #include "runtime/look_stitch.hpp"
@@ -31,7 +30,8 @@ void PoseCorrection::reset() {
 
 void PoseCorrection::correct(const Playback& playback, const RootGovernor& governor, bool even, double seconds) {
   const Skeleton& skeleton = workspace_->kinematics.skeleton();
-  lean_.apply(skeleton, workspace_->shown, edit_steps_ ? governor.acceleration() : Vector2::Zero(), seconds);
+  const Vector2 acceleration = edit_steps_ ? governor.acceleration() : Vector2::Zero();
+  lean_.apply(skeleton, workspace_->shown, acceleration, playback.facing(), workspace_->follows(seconds));
   if (edit_steps_) edit_steps(playback.evident_of_hips(), governor, seconds);
   if (lock_feet_) lock_feet(playback, even, seconds);
 }
@@ -47,7 +47,7 @@ void PoseCorrection::edit_steps(const Control& evident, const RootGovernor& gove
                               : Matrix2{Matrix2::Zero()};
   const double longest = kTurnsAtMost - 1;  // of a step, as legs swing that much faster for it
   const double most = std::min(1.0, longest / std::max(longest, wanted.norm()));
-  const double strode = filtered(seconds, workspace_->constants.feet.release);
+  const double strode = workspace_->release(seconds);
   steps_.stride += strode * (most * wanted - steps_.stride);
   const Vector2 behind =
       -workspace_->constants.feet.ahead * workspace_->shown.root.z() / kGravity * lean_.acceleration();

@@ -20,9 +20,10 @@ double acceleration_of(const RootLimits& limits, double responsiveness, const Co
 
 }  // namespace
 
-RootGovernor::RootGovernor(const Character& character, const RootLimits& limits, double root_adjustment,
-                           double responsiveness)
+RootGovernor::RootGovernor(const Character& character, const RootLimits& limits, Filter& settles,
+                           double root_adjustment, double responsiveness)
     : limits_(&limits),
+      settles_(&settles),
       space_(&character.space),
       root_adjustment_(root_adjustment),
       limit_(acceleration_of(limits, responsiveness, character.space), character.space.turn_rate()) {}
@@ -49,7 +50,7 @@ void RootGovernor::steer(const Control& control, double seconds, Playback& playb
   const Control command = limit_.after(control, heading, limits_->settles);  // by which what is added lags behind
   const Travel mean = playback.mean_travel();
   steer_tempo(command, playback, seconds);
-  const double settled = filtered(seconds, limits_->settles);
+  const double settled = (*settles_)(seconds);
   steer_velocity(command, mean.velocity, in_the_air, settled, seconds);
   steer_turn(command.turn * space_->turn_rate(), mean.turn_rate, playback, settled, seconds);
   playback.move(velocity_, turn_rate_, seconds);
@@ -117,8 +118,9 @@ void RootGovernor::leave(double seconds, Playback& playback) {
   tempo_ += filtered(seconds, playback.step_seconds() / 2) * (1 - tempo_);
   quicker_ = 1;
   ahead_ = 0;
-  velocity_ -= clamp_length(filtered(seconds, limits_->settles) * velocity_, limit_.acceleration() * seconds);
-  turn_rate_ -= filtered(seconds, limits_->settles) * turn_rate_;
+  const double settled = (*settles_)(seconds);
+  velocity_ -= clamp_length(settled * velocity_, limit_.acceleration() * seconds);
+  turn_rate_ -= settled * turn_rate_;
   playback.move(velocity_, turn_rate_, seconds);
   target_heading_ = playback.frame().heading;
 }

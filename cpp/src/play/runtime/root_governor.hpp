@@ -13,8 +13,10 @@ namespace fragmotion {
 /// actor's. Nothing else moves or turns what plays. Allocates nothing.
 class RootGovernor {
  public:
-  /// `root_adjustment` and `responsiveness` as in PlayerOptions. The character and the limits must outlive it.
-  RootGovernor(const Character& character, const RootLimits& limits, double root_adjustment, double responsiveness);
+  /// `root_adjustment` and `responsiveness` as in PlayerOptions. The character, the limits and the filter of what
+  /// settles must outlive it.
+  RootGovernor(const Character& character, const RootLimits& limits, Filter& settles, double root_adjustment,
+               double responsiveness);
 
   /// As it was told when it was made.
   void set(double root_adjustment, double responsiveness);
@@ -69,6 +71,7 @@ class RootGovernor {
   Vector2 velocity_to_add(const Control& command, const Vector2& mean) const;
 
   const RootLimits* limits_;
+  Filter* settles_;
   const ControlSpace* space_;  // of the style that plays
   double root_adjustment_;
   CommandLimit limit_;

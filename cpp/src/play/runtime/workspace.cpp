@@ -11,6 +11,9 @@
 namespace fragmotion {
 Workspace::Workspace(const Character& character, const PlayerConstants& constants)
     : constants(constants),
+      settles(constants.root.settles),
+      follows(constants.lean.follows),
+      release(constants.feet.release),
       kinematics(character.pool.skeleton),
       body(std::make_shared<FootLock::Body>(kinematics, character.legs, constants.feet)),
       floors(usual_floors(character.contacts)),

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/filtered.hpp"
 #include "character/character.hpp"
 #include "feet/foot_lock.hpp"
 #include "fragments/arm_range.hpp"
@@ -41,6 +42,7 @@ struct Workspace {
   Workspace another() const;
 
   PlayerConstants constants;
+  Filter settles, follows, release;  ///< Of the constants of these names.
 
   Kinematics kinematics;
   std::shared_ptr<FootLock::Body> body;
