@@ -82,7 +82,7 @@ void PlayerState::exchange(Archive& a, Inertialization& inertialization) {
   vector(a, inertialization.root_speed_, kMostSpeed);
   a.number(inertialization.heading_, -kMostPlace, kMostPlace);
   a.number(inertialization.heading_speed_, -kMostSpeed, kMostSpeed);
-  a.floats(inertialization.offsets_.data(), std::size_t{6} * inertialization.bones_);
+  a.floats(inertialization.offsets_.data(), std::size_t{6} * inertialization.bones());
 }
 
 template <typename Archive>

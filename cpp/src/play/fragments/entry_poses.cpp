@@ -13,18 +13,17 @@ namespace {
 // Of each fragment that begins with the mirror image of another's poses, the number of that; -1 of the others. Images
 // are in the order of their originals, or are not all found.
 [[gnu::cold]] std::vector<int> originals_of(const PackedPool& pool, const std::vector<Fragment>& fragments) {
-  std::vector<int> originals(fragments.size(), -1);
+  std::vector<int> originals;
   auto next = fragments.begin();
-  for (std::size_t i = 0; i < fragments.size(); ++i) {
-    const Fragment& image = fragments[i];
+  for (const Fragment& image : fragments) {
+    originals.push_back(-1);
     const PackedClip& shown = pool.clips[image.clip];
     if (!shown.mirrored) continue;
     next = std::find_if(next, fragments.end(), [&](const Fragment& f) {
       const PackedClip& clip = pool.clips[f.clip];
       return !clip.mirrored && clip.poses == shown.poses && f.first_played() == image.first_played();
     });
-    if (next == fragments.end()) break;
-    originals[i] = static_cast<int>(next - fragments.begin());
+    if (next != fragments.end()) originals.back() = static_cast<int>(next - fragments.begin());
   }
   return originals;
 }
@@ -62,12 +61,12 @@ void write(const PackedPool& pool, const Fragment& f, TipWriter& tips, int strid
 std::vector<float> entry_poses(const PackedPool& pool) { return entry_poses(pool, pool.fragments); }
 
 // A body that is its own mirror image shows so in one pose, as each bone does.
-std::vector<float> entry_poses(const PackedPool& pool, const std::vector<Fragment>& fragments) {
+[[gnu::cold]] std::vector<float> entry_poses(const PackedPool& pool, const std::vector<Fragment>& fragments) {
   if (fragments.empty()) return {};
   TipWriter tips(pool.skeleton);
   const int stride = padded(2 * tips.points());
   const std::size_t row = std::size_t{3} * stride, count = fragments.size();
-  std::vector<float> poses(count * row, 0), image(row, 0);
+  std::vector<float> poses(count * row), image(row);
   const std::vector<int> points = mirrored_points(pool), originals = originals_of(pool, fragments);
   const auto is_image = [&](std::size_t i) { return originals[i] >= 0 && !points.empty(); };
   std::size_t first = 0;

@@ -297,7 +297,7 @@ Vector3 sample_pose(const PackedClip& clip, double at, int bones, double* rotati
   return {root[0], root[1], root[2]};
 }
 
-UnpackedPoses::UnpackedPoses(int bones)
+[[gnu::cold]] UnpackedPoses::UnpackedPoses(int bones)
     : blocks_((bones + kBoneBlock - 1) / kBoneBlock), turns_(packed_.size() * blocks_), plain_(blocks_) {}
 
 RootPose UnpackedPoses::sample(const PackedClip& clip, double at, const PoseTurns& further, double* rotations) {

@@ -110,7 +110,7 @@ struct TurnBlock {
 /// Turns of bones that fade: `offset` times a turn and `speed` times its change, each as modified Rodrigues parameters.
 struct FadingTurns {
   /// Of kBoneBlock bones in the clip's own order, or of those that are left, x, y and z of the turn and then of its
-  /// change, and kBoneBlock numbers that may be read beyond the last; null: none.
+  /// change, and kBoneBlock - 1 numbers more, which may be read; null: none.
   const float* lanes = nullptr;
   float offset = 0, speed = 0;
 };
@@ -130,11 +130,11 @@ class UnpackedPoses {
 
   /// sample_pose() and root_at() to the bit, but that rotations are turned further. The clip's poses must outlive this.
   RootPose sample(const PackedClip& clip, double at, const PoseTurns& further, double* rotations);
-  /// The rotation of a bone, by its PackedClip::lane_of(), in what was sampled last, without what fades.
-  Quaternion plain(int lane) const {
+  /// Writes the rotation of a bone into [bones, 4], as it was sampled last, of this clip, but without what fades.
+  void plain(const PackedClip& clip, int bone, double* rotations) const {
+    const int lane = clip.lane_of(bone), i = lane % kBoneBlock;
     const TurnBlock& block = plain_[lane / kBoneBlock];
-    const int i = lane % kBoneBlock;
-    return {block.w[i], block.x[i], block.y[i], block.z[i]};
+    store_quaternion({block.w[i], block.x[i], block.y[i], block.z[i]}, rotations + std::ptrdiff_t{4} * bone);
   }
 
  private:

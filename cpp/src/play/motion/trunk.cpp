@@ -26,7 +26,12 @@ Trunk::Trunk(const Skeleton& skeleton)
 }
 
 Quaternion world_turn(const Skeleton& skeleton, int bone, const double* rotations) {
-  return world_turn_by(skeleton, bone, [&](int b) { return load_quaternion(&rotations[std::size_t{4} * b]); });
+  Quaternion world = load_quaternion(&rotations[std::size_t{4} * bone]);
+  for (int b = bone; b != skeleton.roles.hips;) {
+    b = skeleton.parents[b];
+    world = product(load_quaternion(&rotations[std::size_t{4} * b]), world);
+  }
+  return world;
 }
 
 void turn_bone(const Skeleton& skeleton, int bone, const Vector3& axis, double angle, double* rotations) {

@@ -20,18 +20,7 @@ constexpr double kHeadBack = 0.5;
 /// The bones of the spine of a trunk that has one.
 int spine_bones(const Skeleton& skeleton, const Trunk& trunk);
 
-/// How a bone below the hips is turned in the world, by a function that tells a bone's rotation.
-template <typename Local>
-Quaternion world_turn_by(const Skeleton& skeleton, int bone, const Local& local) {
-  Quaternion world = local(bone);
-  for (int b = bone; b != skeleton.roles.hips;) {
-    b = skeleton.parents[b];
-    world = product(local(b), world);
-  }
-  return world;
-}
-
-/// The same by a pose's rotations [bones, 4].
+/// How a bone below the hips is turned in the world by a pose's rotations [bones, 4].
 Quaternion world_turn(const Skeleton& skeleton, int bone, const double* rotations);
 
 /// Turns a bone of a pose's rotations [bones, 4] by an angle, rad, about an axis that is given in the world; its

@@ -30,7 +30,7 @@ TurnOffset turn_offset(const double* old, const double* old_later, const double*
 }
 
 Inertialization::Inertialization(int bones, const StitchConstants& constants)
-    : constants_(&constants), bones_(bones), offsets_(std::size_t{6} * bones + kBoneBlock) {}
+    : constants_(&constants), offsets_(std::size_t{6} * bones + kBoneBlock - 1) {}
 
 Vector2 Inertialization::begin(const WorldPose& old, const WorldPose& old_later, const WorldPose& fresh,
                                const WorldPose& fresh_later, double apart, double seconds, const PackedClip* clip) {
@@ -41,7 +41,7 @@ Vector2 Inertialization::begin(const WorldPose& old, const WorldPose& old_later,
   root_speed_ = {0, 0, faster.z()};
   heading_ = old.heading - fresh.heading;
   heading_speed_ = (old_later.heading - old.heading - (fresh_later.heading - fresh.heading)) / apart;
-  for (int b = 0; b < bones_; ++b) {
+  for (int b = 0; b < bones(); ++b) {
     const std::ptrdiff_t at = std::ptrdiff_t{4} * b;
     keep(clip != nullptr ? clip->lane_of(b) : b, turn_offset(&old.rotations[at], &old_later.rotations[at],
                                                              &fresh.rotations[at], &fresh_later.rotations[at], apart));
@@ -51,7 +51,7 @@ Vector2 Inertialization::begin(const WorldPose& old, const WorldPose& old_later,
 
 // Where one of the six values of a lane is kept.
 std::size_t Inertialization::slot(int lane, int value) const {
-  const int in_block = lane % kBoneBlock, first = lane - in_block, count = std::min(kBoneBlock, bones_ - first);
+  const int in_block = lane % kBoneBlock, first = lane - in_block, count = std::min(kBoneBlock, bones() - first);
   return std::size_t{6} * first + static_cast<std::size_t>(value) * count + in_block;
 }
 
@@ -94,7 +94,7 @@ void Inertialization::move(const Fade& left, WorldPose& pose) const {
 void Inertialization::apply(double time, WorldPose& pose) const {
   const Fade left = this->left(time);
   move(left, pose);
-  for (int b = 0; b < bones_ && left.offset != 0; ++b) {
+  for (int b = 0; b < bones() && left.offset != 0; ++b) {
     double* rotation = &pose.rotations[std::size_t{4} * b];
     store_quaternion(product(turn(b, left), load_quaternion(rotation)), rotation);
   }

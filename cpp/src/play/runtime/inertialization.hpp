@@ -70,10 +70,10 @@ class Inertialization {
  private:
   friend struct PlayerState;
 
+  int bones() const { return (static_cast<int>(offsets_.size()) - kBoneBlock + 1) / 6; }
   std::size_t slot(int lane, int value) const;
 
   const StitchConstants* constants_;
-  int bones_;
   double damping_ = 0, end_ = 0;  // 1/s, s
   Vector3 root_ = Vector3::Zero(), root_speed_ = Vector3::Zero();
   double heading_ = 0, heading_speed_ = 0;

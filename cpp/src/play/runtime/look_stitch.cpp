@@ -16,14 +16,18 @@ Quaternion to_frame_of(const WorldPose& pose) { return CharacterFrame{{}, -pose.
 
 }  // namespace
 
-// Writes how neck and head are turned, which is seen after a rotation, as the pose of a body that is these bones.
-template <typename Local>
-void LookStitch::see(const Local& local, const Quaternion& after, WorldPose& look) const {
+// How the bone that the neck is on is turned in the world.
+Quaternion LookStitch::turn_below(const std::vector<double>& rotations) const {
   const Skeleton& skeleton = workspace_->kinematics.skeleton();
-  Quaternion seen = product(after, world_turn_by(skeleton, skeleton.parents[workspace_->look.front()], local));
+  return world_turn(skeleton, skeleton.parents[workspace_->look.front()], rotations.data());
+}
+
+// Writes how neck and head are turned, which is seen after a rotation, as the pose of a body that is these bones.
+void LookStitch::see(const std::vector<double>& rotations, const Quaternion& after, WorldPose& look) const {
+  Quaternion seen = product(after, turn_below(rotations));
   double* out = look.rotations.data();
   for (const int bone : workspace_->look) {
-    seen = product(seen, local(bone));
+    seen = product(seen, load_quaternion(&rotations[std::size_t{4} * bone]));
     store_quaternion(seen, out);
     out += 4;
   }
@@ -37,8 +41,7 @@ void LookStitch::begin(const WorldPose& old, const WorldPose& old_later, const W
   auto& looks = workspace_->looks;
   const std::array poses{&old, &old_later, &fresh, &fresh_later};
   const Quaternion to_frame = to_frame_of(fresh);
-  for (std::size_t i = 0; i < looks.size(); ++i)
-    see([&](int bone) { return load_quaternion(&poses[i]->rotations[std::size_t{4} * bone]); }, to_frame, looks[i]);
+  for (std::size_t i = 0; i < looks.size(); ++i) see(poses[i]->rotations, to_frame, looks[i]);
   const double fades = body.constants().fades;
   damping_ = fades / seconds;
   for (std::size_t i = 0; i < workspace_->look.size(); ++i) {
@@ -59,11 +62,12 @@ void LookStitch::apply(double time, const Inertialization& body, const PackedCli
   if (!active(time, body)) return;
   WorldPose& look = workspace_->looks[0];
   const Quaternion to_frame = to_frame_of(pose);
-  see([&](int bone) { return workspace_->unpacked.plain(clip.lane_of(bone)); }, to_frame, look);
+  std::vector<double>& plain = workspace_->plain;
+  workspace_->unpacked.plain(clip, workspace_->kinematics.skeleton().roles.hips, plain.data());
+  for (const int bone : workspace_->head_chain) workspace_->unpacked.plain(clip, bone, plain.data());
+  see(plain, to_frame, look);
   const Fade fade = body.fade(damping_, time);
-  const Skeleton& skeleton = workspace_->kinematics.skeleton();
-  Quaternion from =
-      product(to_frame, world_turn(skeleton, skeleton.parents[workspace_->look.front()], pose.rotations.data()));
+  Quaternion from = product(to_frame, turn_below(pose.rotations));
   const double* seen = look.rotations.data();
   for (const int bone : workspace_->look) {
     const Quaternion turned = product(body.turn(clip.lane_of(bone), fade), load_quaternion(seen));

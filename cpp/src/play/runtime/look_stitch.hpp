@@ -28,8 +28,8 @@ class LookStitch {
  private:
   friend struct PlayerState;
 
-  template <typename Local>
-  void see(const Local& local, const Quaternion& after, WorldPose& look) const;
+  Quaternion turn_below(const std::vector<double>& rotations) const;
+  void see(const std::vector<double>& rotations, const Quaternion& after, WorldPose& look) const;
   bool active(double time, const Inertialization& body) const;
 
   Workspace* workspace_;

@@ -58,6 +58,7 @@ Workspace::Workspace(const Character& character, const PlayerConstants& constant
   drawn.reserve(most);
   shown.rotations.resize(std::size_t{4} * kinematics.bones());
   poses.fill(shown);
+  plain = shown.rotations;
   for (WorldPose& pose : looks) pose.rotations.resize(4 * look.size());
 }
 

@@ -66,6 +66,7 @@ struct Workspace {
   std::vector<std::pair<float, int>> drawn;  ///< Costs and fragments of those that one is drawn of.
 
   UnpackedPoses unpacked;          ///< Of all that plays.
+  std::vector<double> plain;       ///< Rotations of the head_chain without a stitch.
   WorldPose shown;                 ///< By the player that stepped last.
   std::array<WorldPose, 4> poses;  ///< Of a stitch.
   std::array<WorldPose, 4> looks;  ///< Neck and head in them, as bodies of their own.
