@@ -12,8 +12,8 @@ namespace {
 const ControlSpace kSpace(1.2, 3.3, 1.2, 1);
 constexpr double kDegree = kPi / 180;
 
-Control going(double speed, double degrees) {
-  return {speed * std::sin(degrees * kDegree), speed * std::cos(degrees * kDegree), 0.5, 0.25};
+Control going(double speed, double degrees, double turn = 0.3) {
+  return {speed * std::sin(degrees * kDegree), speed * std::cos(degrees * kDegree), turn, 0.25};
 }
 
 Fragment fragment(const Control& evident, Origin origin = Origin::captured) {
@@ -63,20 +63,28 @@ TEST(SpeedRange, LeavesAloneWhatIsWithinItAndWalksEverywhere) {
   for (double degrees = 0; degrees < 360; degrees += 7) {
     for (const double speed : {0.0, 0.5, 1.2}) {
       const Control asked = going(speed, degrees), able = range.within(asked);
-      EXPECT_TRUE(range.allows(asked));
       EXPECT_EQ(able.x, asked.x);
       EXPECT_EQ(able.y, asked.y);
     }
   }
-  EXPECT_TRUE(range.allows(going(3.9, 20)));
-  EXPECT_FALSE(range.allows(going(3.91, 20)));
-  EXPECT_FALSE(range.allows(going(1.3, 180)));
+  EXPECT_EQ(range.within(going(3.9, 20)).speed(), going(3.9, 20).speed());
+  EXPECT_LT(range.within(going(3.91, 20)).speed(), 3.905);
+  EXPECT_LT(range.within(going(1.3, 180)).speed(), 1.205);
 }
 
 TEST(SpeedRange, TakesNoNoticeOfWhatIsMade) {
   const SpeedRange range({fragment(going(3, 180), Origin::transformed), fragment(going(3, 90), Origin::interpolated)},
                          kSpace);
   for (double degrees = 0; degrees < 360; degrees += 7) EXPECT_NEAR(most(range, degrees), kSpace.walk(), 1e-12);
+}
+
+TEST(SpeedRange, TakesNoNoticeOfWhatTurnsUnlessItGoesAhead) {
+  for (const double turn : {-0.5, 0.5}) {
+    for (const double degrees : {0, 25, 90, 180}) {
+      const SpeedRange range({fragment(going(3, degrees, turn))}, kSpace);
+      EXPECT_NEAR(most(range, degrees), degrees <= 30 ? 1.3 * 3 : kSpace.walk(), 1e-9) << degrees;
+    }
+  }
 }
 
 }  // namespace

@@ -11,7 +11,7 @@
 #include "base/quantile.hpp"
 #include "base/rounding.hpp"
 #include "control/gaits.hpp"
-#include "fragments/evident.hpp"
+#include "fragments/speed_range.hpp"
 #include "motion/contacts.hpp"
 #include "motion/gait_scale.hpp"
 
@@ -111,7 +111,7 @@ double turn_rate(const std::vector<Control>& evident) {
   const double unit = ControlSpace().turn_rate();
   std::vector<double> rates;
   for (const Control& ev : evident) {
-    if (std::abs(ev.turn) * unit > kTurning) rates.push_back(std::abs(ev.turn) * unit);
+    if (is_turning(ev, unit)) rates.push_back(std::abs(ev.turn) * unit);
   }
   if (rates.size() * 20 < evident.size() || rates.empty()) return unit;
   return quantile(std::move(rates), 0.75);
@@ -215,7 +215,7 @@ bool show_jumps(const std::vector<Control>& evident) {
 }
 
 bool show_turns(const std::vector<Control>& evident, double turn_rate) {
-  return show(evident, [=](const Control& ev) { return std::abs(ev.turn) * turn_rate > kTurning; });
+  return show(evident, [=](const Control& ev) { return is_turning(ev, turn_rate); });
 }
 
 // As many directions as have takes in nearly all of them.

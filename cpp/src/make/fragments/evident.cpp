@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "base/quantile.hpp"
-#include "fragments/speed_range.hpp"
 #include "fragments/whole_jumps.hpp"
 #include "motion/gait_bounces.hpp"
 
@@ -56,10 +55,6 @@ Control evident_control(const BodyMotion& motion, double rate, int begin, int en
   control.turn = (motion.heading[end] - motion.heading[begin]) / seconds / space.turn_rate();
   control.jump = std::max(evident_jump(rise), kTakesOff * evident_jump(flight));
   return control;
-}
-
-bool goes_straight_ahead(const Control& evident, double turn_rate) {
-  return std::abs(std::atan2(evident.x, evident.y)) <= kSameDirection && std::abs(evident.turn) * turn_rate <= kTurning;
 }
 
 void lead_to_jumps(FragmentPool& pool) {

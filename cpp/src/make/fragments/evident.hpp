@@ -31,11 +31,6 @@ double usual_height(const std::vector<BodyMotion>& motions);
 Control evident_control(const BodyMotion& motion, double rate, int begin, int end, double usual,
                         const ControlSpace& space);
 
-constexpr double kTurning = kPi / 6;  ///< rad/s: at least so fast turns who turns.
-
-/// Whether a fragment goes ahead (kSameDirection) and does not turn, whose evident control counts turns in this rate.
-bool goes_straight_ahead(const Control& evident, double turn_rate);
-
 /// Lets what is mostly of a whole jump (whole_jumps.hpp), its crouch or its landing, show no less than what takes off.
 void lead_to_jumps(FragmentPool& pool);
 

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "base/quantile.hpp"
-#include "fragments/evident.hpp"
+#include "fragments/speed_range.hpp"
 #include "motion/contacts.hpp"
 
 namespace fragmotion {

@@ -13,15 +13,26 @@ constexpr double kBeyond = 1.3;  // of the takes' speed: a body goes so fast tha
 constexpr int kDirections = 72;
 constexpr double kTurn = 2 * kPi / kDirections;
 
+constexpr double kTurning = kPi / 6;  // rad/s
+
 double direction(const Control& control) { return std::atan2(control.x, control.y); }
 
+bool goes_ahead(const Control& evident) { return std::abs(direction(evident)) <= kSameDirection; }
+
 }  // namespace
+
+bool is_turning(const Control& evident, double turn_rate) { return std::abs(evident.turn) * turn_rate > kTurning; }
+
+bool goes_straight_ahead(const Control& evident, double turn_rate) {
+  return goes_ahead(evident) && !is_turning(evident, turn_rate);
+}
 
 SpeedRange::SpeedRange(const std::vector<Fragment>& fragments, const ControlSpace& space)
     : walk_(space.walk()), most_(kDirections, walk_) {
   for (const Fragment& fragment : fragments) {
-    if (is_made(fragment.origin)) continue;
-    const double at = direction(fragment.evident), speed = kBeyond * fragment.evident.speed();
+    const Control& ev = fragment.evident;
+    if (is_made(fragment.origin) || (is_turning(ev, space.turn_rate()) && !goes_ahead(ev))) continue;
+    const double at = direction(ev), speed = kBeyond * ev.speed();
     const int last = static_cast<int>(std::ceil((at + kSameDirection) / kTurn));
     for (int near = static_cast<int>(std::floor((at - kSameDirection) / kTurn)); near <= last; ++near) {
       const int i = (near + kDirections) % kDirections;
@@ -38,15 +49,12 @@ double SpeedRange::most(const Control& control) const {
   return of(below) + (at - below) * (of(below + 1) - of(below));
 }
 
-bool SpeedRange::allows(const Control& control) const {
-  const double speed = control.speed();
-  return speed <= walk_ || speed <= most(control) * (1 + kRounding);
-}
-
 Control SpeedRange::within(const Control& control) const {
-  if (allows(control)) return control;
-  const double share = most(control) / control.speed();
-  return {share * control.x, share * control.y, control.turn, control.jump};
+  const double speed = control.speed();
+  if (speed <= walk_) return control;
+  const double able = most(control);
+  if (speed <= able * (1 + kRounding)) return control;
+  return {able / speed * control.x, able / speed * control.y, control.turn, control.jump};
 }
 
 }  // namespace fragmotion
