@@ -333,6 +333,13 @@ FragmentPool synthesized(std::vector<Clip> clips, const ControlSpace& space) {
   return pool;
 }
 
+// ControlDis to the nearest fragment.
+double nearest(const FragmentPool& pool, const Control& control, const ControlSpace& space) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const Fragment& f : pool.fragments) least = std::min(least, space.distance(f.evident, control));
+  return least;
+}
+
 TEST(Synthesize, OnlyAddsAndBringsControlsNearer) {
   const std::vector<Clip> clips = gait_takes();
   const ControlSpace space(1.2, 3, 1.2, 1.8 / stature(kSkeleton));
@@ -342,16 +349,49 @@ TEST(Synthesize, OnlyAddsAndBringsControlsNearer) {
     EXPECT_EQ(after.fragments[i].begin, before.fragments[i].begin);
     EXPECT_EQ(after.fragments[i].evident.y, before.fragments[i].evident.y);
   }
-  const Coverage was = coverage(before.fragments, space), is = coverage(after.fragments, space);
   const SpeedRange speeds(before.fragments, space);
   double sum_was = 0, sum_is = 0;
   for (int c = 0; c < kPaperPoints; ++c) {
-    EXPECT_LE(is.distances[c], was.distances[c]);
-    if (!speeds.allows(space.point(c))) continue;
-    sum_was += was.distances[c];
-    sum_is += is.distances[c];
+    const Control able = speeds.within(space.point(c));
+    const double was = nearest(before, able, space), is = nearest(after, able, space);
+    EXPECT_LE(is, was);
+    if (space.nearest(able) != c) continue;
+    sum_was += was;
+    sum_is += is;
   }
   EXPECT_LT(sum_is, 0.5 * sum_was);
+}
+
+TEST(Synthesize, GoesAsFastAsMayBeWhereNoTakeIsAsFastAsIsAsked) {
+  const std::vector<Clip> clips = gait_takes();  // aside they go at 1.2 m/s
+  const ControlSpace space(0.9, 2, 1.2, 1.8 / stature(kSkeleton));
+  const SpeedRange speeds(gait_pool(clips, 1, {}, &space).fragments, space);
+  const Control aside{2, 0, 0, 0}, able = speeds.within(aside);
+  ASSERT_LT(able.speed(), 1.9);
+  ASSERT_EQ(space.nearest(able), space.nearest(aside));
+  EXPECT_LT(nearest(synthesized(clips, space), able, space), 0.15);
+}
+
+TEST(Synthesize, GoesRoundAndRoundWhereNoTakeGoesOn) {
+  const std::vector<Clip> clips = gait_takes();
+  const ControlSpace space(1.2, 3, 1.2, 1.8 / stature(kSkeleton));
+  const Control run{0, 3, 0, 0};
+  const auto rounds = [&](const FragmentPool& pool) {
+    int count = 0;
+    for (const Fragment& f : pool.fragments)
+      count += f.origin == Origin::transformed && space.distance(f.evident, run) <= kPerformed ? 1 : 0;
+    return count;
+  };
+  FragmentPool pool = gait_pool(clips, 1, {}, &space), alone = pool;
+  synthesize(pool, space, usual_of(clips));
+  EXPECT_EQ(rounds(pool), 0) << "takes run on";
+  alone.fragments.clear();
+  for (const Fragment& f : gait_pool(clips, 1, {}, &space).fragments) {  // every other one of what runs
+    const bool runs = space.distance(f.evident, run) <= kPerformed;
+    if (!runs || alone.fragments.back().end != f.begin) alone.fragments.push_back(f);
+  }
+  synthesize(alone, space, usual_of(clips));
+  EXPECT_GE(rounds(alone), 2);
 }
 
 TEST(Synthesize, SaysTruelyWhatItsFragmentsAre) {

@@ -115,6 +115,7 @@ class Synthesizer {
         trajectories_(trajectories(pool, kPoses, threads)),
         borne_gaits_(kinematics_, legs_, pool, kMostTempo),
         originals_(static_cast<int>(pool.fragments.size())),
+        next_(successors(pool.fragments)),
         cycles_(closed_cycles(pool, trajectories_, space, takes)) {
     find_dip();
   }
@@ -128,10 +129,11 @@ class Synthesizer {
     auto made = parallel_map(layout.velocities(), threads_, [&](int velocity) {
       Additions additions;
       for (int c = points * velocity; c < points * (velocity + 1); ++c) {
-        const int missing = std::max(0, kWanted - performers(c));
-        if (missing == 0 || c == stand || !speeds.allows(space_.point(c))) continue;
-        interpolate(space_.point(c), missing, additions);
-        transform(space_.point(c), additions);
+        const Control able = speeds.within(space_.point(c));
+        if (c == stand || space_.nearest(able) != c) continue;
+        const int missing = std::max(0, kWanted - performers(able));
+        if (missing > 0) interpolate(able, missing, additions);
+        if (missing > 0 || !(able.jumps() || is_gait(able))) transform(able, additions);
       }
       return additions;
     });
@@ -150,10 +152,20 @@ class Synthesizer {
     return space_.distance(pool_.fragments[fragment].evident, control);
   }
 
-  int performers(int c) const {
+  int performers(const Control& control) const {
     int count = 0;
-    for (int i = 0; i < originals_; ++i) count += distance(i, space_.point(c)) <= kPerformed ? 1 : 0;
+    for (int i = 0; i < originals_; ++i) count += distance(i, control) <= kPerformed ? 1 : 0;
     return count;
+  }
+
+  // Whether two fragments that follow each other in a take, a left and a right step, perform a control together.
+  bool is_gait(const Control& control) const {
+    for (int i = 0; i < originals_; ++i) {
+      if (next_[i] < 0) continue;
+      const Control both = mix(pool_.fragments[i].evident, pool_.fragments[next_[i]].evident, 0.5);
+      if (space_.distance(both, control) <= kPerformed) return true;
+    }
+    return false;
   }
 
   // Frames kept beyond a fragment's end.
@@ -391,6 +403,7 @@ class Synthesizer {
   Trajectories trajectories_;
   BorneGaits borne_gaits_;
   int originals_;
+  std::vector<int> next_;  // successors()
   std::vector<ClosedCycle> cycles_;
   bool takes_jump_ = false;                     // then these show how high and fast
   double dip_ = kLeastDip;                      // m of a 1.8 m character that jumps on the spot
