@@ -70,7 +70,7 @@ TEST(RootGovernor, LetsGoOfAVelocityNoFasterThanABodyCan) {
   RootGovernor governor = governor_of(*character, 1, 5);
   playback.reset(character->classes.representatives[0], {});
   governor.reset(0);
-  governor.keep({0, 2});
+  governor.keep({0, 2}, playback);
   const Control& ev = playback.evident_of_hips();
   governor.resume(0, {ev.x, ev.y});
   double before = 2;
@@ -83,6 +83,33 @@ TEST(RootGovernor, LetsGoOfAVelocityNoFasterThanABodyCan) {
     before = speed;
   }
   EXPECT_NEAR(before, 0, 0.01);
+}
+
+// However much faster each ends than the next begins, and were it the same one again.
+TEST(RootGovernor, GetsNoFasterByStitchesThanWhatTheyKeepFades) {
+  constexpr double kMost = 5, kEnds = 2, kTime = 0.1;  // m/s^2, m/s, s
+  const auto character = gait_character();
+  Workspace workspace(*character);
+  Playback playback(*character, workspace, Stitching::inertialize, 0.2);
+  RootGovernor governor = governor_of(*character, 1, kMost);
+  const int fragment = forward_fragment(*character);
+  playback.reset(fragment, {});
+  governor.reset(0);
+  const Control ev = playback.evident_of_hips();
+  governor.resume(0, {ev.x, ev.y});
+  double fastest = 0;
+  for (int stitch = 0; stitch < 100; ++stitch) {
+    for (int i = 0; i < 10; ++i) {
+      playback.advance(kTime / 10);
+      governor.steer(ev, kTime / 10, playback);
+      playback.show();
+    }
+    playback.start(fragment);
+    governor.keep({0, kEnds}, playback);
+    fastest = std::max(fastest, (governor.velocity() + governor.pace() * playback.mean_travel().velocity).norm());
+  }
+  EXPECT_GT(fastest, ev.speed() + 1);  // of one stitch it is kept, so that no hips are jerked,
+  EXPECT_LE(fastest, ev.speed() + kEnds + 0.5);
 }
 
 // Whatever is asked, and however the hips of the fragment sway.

@@ -74,7 +74,7 @@ void Player::go_on(const Control& control) {
 void Player::play(int fragment) { keep(playback_.start(fragment)); }
 
 void Player::keep(const Vector2& faster) {
-  governor_.keep(faster);
+  governor_.keep(faster, playback_);
   ++entered_;
 }
 

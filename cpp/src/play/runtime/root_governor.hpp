@@ -30,10 +30,9 @@ class RootGovernor {
   /// What is asked of a body that goes so, m/s in the character frame, begins anew.
   void resume(double heading, const Vector2& velocity) { limit_.reset(heading, velocity); }
   /// Lets the root keep the velocity by which what played was faster than what begins to, m/s in the character frame.
-  void keep(const Vector2& faster) {
-    velocity_ += pace() * faster;
-    begins_ = true;
-  }
+  /// Of that by which the one ended quicker than its mean and the other begins slower no more is kept than fades while
+  /// what begins plays, and by no more than that a body gets faster than it went, begins to go, or is commanded.
+  void keep(const Vector2& faster, const Playback& playback);
 
   /// The body faces `heading`.
   void face(double heading) { limit_.face(heading); }
