@@ -43,6 +43,23 @@ def test_buttons_say_why_they_are_grey() -> None:
     refuses(bpy.ops.fragmotion.build, "Leave this mode")
 
 
+def test_an_empty_that_holds_one_armature_stands_for_it() -> None:
+    """As the importers of files from stores leave them, with the Empty active."""
+    obj, empty = making.add_armature(), bpy.data.objects.new("Sketchfab_model", None)
+    mesh = bpy.data.objects.new("Hair", bpy.data.meshes.new("Hair"))
+    add_takes(obj)
+    for each in (empty, mesh):
+        bpy.context.scene.collection.objects.link(each)
+    obj.parent = mesh.parent = empty
+    for each in (empty, mesh):
+        making.activate(each)
+        assert bpy.ops.fragmotion.build.poll()
+    other = making.add_armature(name="Other")
+    other.parent = empty
+    making.activate(empty)
+    refuses(bpy.ops.fragmotion.build, "No armature is active")
+
+
 def test_one_bone() -> None:
     obj = making.add_armature(making.BODY[:1])
     add_takes(obj)

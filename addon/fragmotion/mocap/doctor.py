@@ -7,6 +7,7 @@ from collections.abc import Generator, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 import bpy
+import numpy as np
 from bpy.props import BoolProperty, EnumProperty, StringProperty
 
 from ..compat.core import core
@@ -26,6 +27,10 @@ UNTOLD = "untold_speed"
 
 _GROUND, _UNIT = "ground", "unit"  # findings' codes
 _SIZE = "character_size"  # that of what is wrong with the armature, not with the take
+_LIES = (
+    "In none of the Actions the body stands: it lies, or its head is down, as where a file's upward axis is taken for "
+    "another. Turn the armature, or what it hangs on, until it stands upright in the viewport, and Build again"
+)
 WAIT = 0.1
 """Seconds between looks at a thread that is waited for."""
 
@@ -118,6 +123,19 @@ def tell_ground(action: bpy.types.Action, clips: Sequence[Clip], skeleton: Skele
     said = found[0].text if found else ""
     tell_anew(action, _GROUND, "warning", said, mendable=True)
     return said
+
+
+def say_lying(clips: Sequence[Clip], skeleton: Skeleton) -> list[str]:
+    """That the body stands in none of these clips: from the middle between the feet to the hips is nearer level than
+    upright in all frames."""
+    hips = skeleton.names.index(skeleton.roles["hips"])
+    feet = [skeleton.names.index(bone) for role, bone in skeleton.roles.items() if role.endswith("foot")]
+    for clip in clips if feet else ():
+        heads = clip.world_transforms(skeleton)[0]
+        up = heads[:, hips] - heads[:, feet].mean(axis=1)
+        if (up[:, 2] > np.linalg.norm(up[:, :2], axis=1)).any():
+            return []
+    return [_LIES] if feet else []
 
 
 def tell_anew(action: bpy.types.Action, code: str, severity: str, text: str, mendable: bool = False) -> None:

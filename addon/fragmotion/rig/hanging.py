@@ -38,21 +38,29 @@ def find_hanging(context: bpy.types.Context, obj: bpy.types.Object, actions: Seq
     others = [bone for bone in bones if bone.name not in carrying]
     candidates = [bone.name for bone in others if any(_is_moved(obj, action, bone, least) for action in actions)]
     found = _beside_body(obj, rig)
+    ways = dict[str, float]()
     if candidates:
         poses = np.concatenate([posing.sample_poses(context, obj, action, _times(action))[0] for action in actions])
         parents = [bones.find(bone.parent.name) if bone.parent else -1 for bone in bones]
         moving = core.find_hanging(bones.keys(), parents, poses, [bones.find(name) for name in candidates])
+        ways = {name: _way(poses, bones.find(name), bones.find(hips.name)) for name in candidates}
         found = {**found, **_beside_hips(obj, hips, candidates), **_on_body(obj, hips, moving)}
     for bone, on in sorted(found.items()):
         row = obj.fragmotion.hanging.add()
         row.name, row.on = bones[bone].name, bones[on].name
-    return _say(obj, make_rig(obj) if found else rig, candidates)
+    return _say(obj, make_rig(obj) if found else rig, ways)
 
 
 def moves_beside(obj: bpy.types.Object, rig: Rig, action: bpy.types.Action) -> bool:
     """Whether an Action moves bones against their parents that carry no body."""
     least, carrying = least_way(obj), carriers(obj, rig)
     return any(_is_moved(obj, action, bone, least) for bone in obj.data.bones if bone.name not in carrying)
+
+
+def _way(poses: Doubles, bone: int, hips: int) -> float:
+    """How far a bone goes as the hips see it, in the armature's units."""
+    axes, heads = poses[:, hips, :3, :3], poses[:, :, :3, 3]
+    return float(np.linalg.norm(np.ptp(np.einsum("fji,fj->fi", axes, heads[:, bone] - heads[:, hips]), axis=0)))
 
 
 def least_way(obj: bpy.types.Object) -> float:
@@ -108,15 +116,30 @@ def _times(action: bpy.types.Action) -> Doubles:
     return np.linspace(float(first), float(last), _FRAMES)
 
 
-def _say(obj: bpy.types.Object, rig: Rig, candidates: Sequence[str]) -> list[str]:
+def _say(obj: bpy.types.Object, rig: Rig, ways: Mapping[str, float]) -> list[str]:
+    """`ways`: how far each bone goes that is moved against its parent."""
     told, hanging = [], hanging_of(obj)
     if hanging:
         pairs = ", ".join(f"'{name}' with '{on}'" for name, on in hanging.items())
         told.append(f"Learned, and baked, as bones that move with others than their parents: {pairs}")
     above = [bone.name for bone in obj.data.bones[rig.skeleton.roles["hips"]].parent_recursive]
     carried = {*hanging, *carriers(obj, rig), *(name for name in above if _carries_no_other(obj, name, hanging))}
-    rest = [name for name in candidates if name not in carried]
+    rest = [name for name in ways if name not in carried]
     if rest:
         more = f" and {len(rest) - 1} more" if len(rest) > 1 else ""
-        told.append(f"Left out: what keys of bone '{rest[0]}'{more} move away from the parent")
+        told.append(
+            f"Left out: what keys of bone '{rest[0]}'{more} move away from the parent{_say_far(obj, ways, rest)}"
+        )
     return told
+
+
+def _say_far(obj: bpy.types.Object, ways: Mapping[str, float], names: Sequence[str]) -> str:
+    """What is wrong where a part of a body goes farther to and fro than the body is large."""
+    farthest, size = max(names, key=lambda name: ways[name]), least_way(obj) / _STRAYS
+    if ways[farthest] <= size:
+        return ""
+    return (
+        f". '{farthest}' goes {ways[farthest] / size:.1f} times as far as the body is large, as where a scale was "
+        "applied (Ctrl+A) after the Actions were made, which leaves their location keys as they were: import the file "
+        "again without that, or scale these keys as the bones were"
+    )

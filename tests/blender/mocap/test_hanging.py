@@ -159,6 +159,43 @@ def test_a_trunk_that_moves_with_the_root_stays_on_the_hips(addon: ModuleType) -
     assert any(f"Left out: what keys of bone '{trunk}'" in each for each in told)
 
 
+def test_feet_are_learned_where_they_are_shown_though_the_legs_move_away_from_the_hips(addon: ModuleType) -> None:
+    obj, action = making.open_sample(), bpy.data.actions["walk forward"]
+    with making.editing(obj) as bones:
+        for side in ("L", "R"):
+            bones[f"thigh.{side}"].use_connect = False
+    addon.compat.versions.assign(obj, action)
+    frames = range(int(action.frame_range[0]), int(action.frame_range[1]) + 1)
+    for frame in frames:
+        for side in ("L", "R"):
+            obj.pose.bones[f"thigh.{side}"].location = (0, -0.05 - 0.03 * np.sin(frame / 4), 0)
+            obj.pose.bones[f"thigh.{side}"].keyframe_insert("location", frame=frame)
+    addon.rig.hanging.find_hanging(bpy.context, obj, [action])
+    rig = addon.rig.rigs.make_rig(obj)
+    clip = addon.mocap.sampling.sample(bpy.context, obj, action, rig)
+    heads = clip.world_transforms(rig.skeleton)[0]
+    seen = []
+    with addon.rig.posing.playing(bpy.context, obj, action):
+        for frame in frames:
+            seen.append({name: obj.matrix_world @ matrix.translation for name, matrix in _matrices(obj, frame).items()})
+    for name in FEET:
+        off = heads[:, rig.skeleton.names.index(name)] - np.array([each[name] for each in seen])
+        assert np.linalg.norm(off, axis=1).max() < 1e-3
+
+
+@pytest.mark.parametrize(("times", "is_said"), ((1, False), (40, True)))
+def test_build_says_that_location_keys_are_of_another_size_than_the_bones(
+    addon: ModuleType, baked_ik: bpy.types.Object, times: float, is_said: bool
+) -> None:
+    action = bpy.data.actions["walk forward"]
+    for curve in addon.compat.versions.curves_of(action, baked_ik):
+        if curve.data_path.endswith(".location") and "foot" in curve.data_path:
+            for key in curve.keyframe_points:
+                key.co[1] *= times
+    told = addon.rig.hanging.find_hanging(bpy.context, baked_ik, [action])
+    assert any("as far as the body is large" in each and "Ctrl+A" in each for each in told) == is_said
+
+
 def test_what_hangs_on_no_bone_goes_along(addon: ModuleType) -> None:
     obj = making.open_sample()
     action = bpy.data.actions["walk forward"]

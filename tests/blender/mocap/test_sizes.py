@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 from types import ModuleType
 
@@ -75,3 +76,14 @@ def test_build_says_that_feet_hover_and_mend_puts_them_down(addon: ModuleType) -
     bpy.context.window_manager.fragmotion.active_action = bpy.data.actions.find(walk.name)
     assert bpy.ops.fragmotion.mend_finding(index=rows[0]) == {"FINISHED"}
     assert not [text for text in gather(bpy.context, obj, obj.fragmotion.build).warnings if "the ground" in text]
+
+
+@pytest.mark.parametrize(("turn", "is_said"), ((0, False), (math.pi / 2, True), (-math.pi / 2, True), (math.pi, True)))
+def test_build_says_that_the_body_lies(addon: ModuleType, turn: float, is_said: bool) -> None:
+    obj = making.open_sample()
+    for action in bpy.data.actions:
+        action.fragmotion.use = action.name in ("stand", "walk forward")
+    obj.rotation_mode, obj.rotation_euler = "XYZ", (turn, 0, 0)
+    bpy.context.view_layer.update()
+    said = addon.character.building.gather(bpy.context, obj, obj.fragmotion.build).warnings
+    assert any("In none of the Actions the body stands" in each for each in said) == is_said

@@ -175,5 +175,111 @@ TEST(RigClip, LeavesABoneThatCarriesNoOtherAsItWasTurnedWhereItIsSquashed) {
   }
 }
 
+// Hips, and legs with knees that stand on the ground.
+Armature two_legs() {
+  Armature armature;
+  armature.names = {"hips", "thigh.L", "shin.L", "foot.L", "thigh.R", "shin.R", "foot.R"};
+  armature.parents = {-1, 0, 1, 2, 0, 4, 5};
+  const Quaternion up(Eigen::AngleAxisd(kPi / 2, Vector3::UnitX()));  // y along the bone
+  append(compose({0, 0, 1}, up), armature.rest);
+  for (const double x : {0.1, -0.1}) {
+    for (const double z : {0.9, 0.5, 0.1}) append(compose({x, 0, z}, up), armature.rest);
+  }
+  armature.lengths.assign(7, 0.1);
+  append(compose({1, 2, 0}, Quaternion(Eigen::AngleAxisd(1, Vector3::UnitZ())), 2), armature.world);
+  return armature;
+}
+
+// Knees bent, of each thigh the one in front, and moved along the world's z so far.
+Channels bent_legs(double moved, int frames, int front = 1) {
+  Channels channels{frames, std::vector<double>(21 * frames, 0.0), {}};
+  for (int f = 0; f < frames; ++f) {
+    for (int b = 0; b < 7; ++b) {
+      const bool thigh = b == 1 || b == 4, shin = b == 2 || b == 5;
+      const double angle = front * ((thigh ? -0.6 : shin ? 0.9 : 0) + 0.1 * f);
+      const Quaternion turn(Eigen::AngleAxisd(angle, Vector3::UnitX()));
+      const double wxyz[] = {turn.w(), turn.x(), turn.y(), turn.z()};
+      channels.rotations.insert(channels.rotations.end(), wxyz, wxyz + 4);
+      if (thigh) channels.locations[3 * (7 * f + b) + 1] = moved;
+    }
+  }
+  return channels;
+}
+
+std::vector<Matrix4> shown(const Armature& armature, const Channels& channels, int frame) {
+  std::vector<Matrix4> pose = blender_pose(armature, &channels.locations[21 * frame], &channels.rotations[28 * frame]);
+  for (Matrix4& bone : pose) bone = matrix_at(armature.world, 0) * bone;
+  return pose;
+}
+
+// As where cartoons' legs come out of the hips.
+TEST(RigClip, BringsFeetToWhereLegsAreShownThatMoveAway) {
+  const Armature armature = two_legs();
+  const Rig rig(armature);
+  std::vector<Vector3> heads(7);
+  std::vector<Quaternion> turns(7);
+  for (const double moved : {0.06, -0.06}) {
+    const Channels channels = bent_legs(moved, 3);
+    std::vector<double> matrices;
+    for (int f = 0; f < 3; ++f) {
+      for (const Matrix4& bone : blender_pose(armature, &channels.locations[21 * f], &channels.rotations[28 * f]))
+        append(bone, matrices);
+    }
+    for (const Clip& clip : {clip_of(rig, channels), rig.clip_from_matrices("walk", 30, 3, matrices.data())}) {
+      for (int f = 0; f < 3; ++f) {
+        const std::vector<Matrix4> pose = shown(armature, channels, f);
+        world(Kinematics(rig.skeleton()), clip, f, heads.data(), turns.data());
+        EXPECT_LT((heads[0] - pose[0].topRightCorner<3, 1>()).norm(), 1e-12);
+        for (const int foot : {3, 6}) {
+          EXPECT_LT((heads[foot] - pose[foot].topRightCorner<3, 1>()).norm(), 1e-9) << moved;
+          EXPECT_LT(turns[foot].angularDistance(rotation_of(pose[foot])), 1e-9);
+        }
+      }
+    }
+  }
+}
+
+// As an animal's, which may be bent to the back.
+TEST(RigClip, BendsKneesToWhereTheyAreShownToBend) {
+  const Armature armature = two_legs();
+  const Rig rig(armature);
+  std::vector<Vector3> heads(7);
+  std::vector<Quaternion> turns(7);
+  for (const int front : {1, -1}) {
+    const Channels channels = bent_legs(0.02, 3, front);
+    const Clip clip = clip_of(rig, channels);
+    for (int f = 0; f < 3; ++f) {
+      world(Kinematics(rig.skeleton()), clip, f, heads.data(), turns.data());
+      const std::vector<Matrix4> pose = shown(armature, channels, f);
+      for (const int knee : {2, 5}) EXPECT_LT((heads[knee] - pose[knee].topRightCorner<3, 1>()).norm(), 0.1) << front;
+    }
+  }
+}
+
+TEST(RigClip, StretchesLegsTowardsFeetThatTheyDoNotReach) {
+  const Armature armature = two_legs();
+  const Rig rig(armature);
+  const Channels channels = bent_legs(-0.5, 2);
+  const Clip clip = clip_of(rig, channels);
+  std::vector<Vector3> heads(7);
+  std::vector<Quaternion> turns(7);
+  world(Kinematics(rig.skeleton()), clip, 0, heads.data(), turns.data());
+  const Vector3 leg = heads[3] - heads[1], asked = shown(armature, channels, 0)[3].topRightCorner<3, 1>() - heads[1];
+  EXPECT_NEAR(leg.norm(), 1.6, 1e-9) << "twice as large as the armature";
+  EXPECT_GT(leg.normalized().dot(asked.normalized()), 1 - 1e-9);
+}
+
+TEST(RigClip, LeavesLegsAsTheyAreTurnedWhereNothingMovesAway) {
+  const Rig rig(two_legs());
+  const Channels channels = bent_legs(0, 3);
+  const Clip clip = clip_of(rig, channels);
+  for (int f = 0; f < 3; ++f) {
+    for (int b = 1; b < 7; ++b) {
+      const std::size_t at = 4 * (7 * static_cast<std::size_t>(f) + b);
+      EXPECT_LT(load_quaternion(&clip.rotations[at]).angularDistance(load_quaternion(&channels.rotations[at])), 1e-12);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace fragmotion

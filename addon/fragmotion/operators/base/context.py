@@ -27,12 +27,18 @@ def active_armature(context: bpy.types.Context) -> Any:
 
 
 def active_rig(context: bpy.types.Context) -> Any:
-    """The active object where it is an armature, else the armature that deforms or carries it, if any; the rig in place
-    of its motion skeleton."""
+    """The active object where it is an armature, else the armature that deforms or carries it, if any, else the only
+    one that hangs on what it hangs on, as on the Empty of a file from a store; the rig in place of its motion
+    skeleton."""
     obj = context.active_object
     while obj is not None and obj.type != "ARMATURE":
-        obj = obj.find_armature() or obj.parent
+        obj = obj.find_armature() or obj.parent or _only_armature_below(obj)
     return obj and rig_of(obj)
+
+
+def _only_armature_below(top: bpy.types.Object) -> bpy.types.Object | None:
+    below = [child for child in top.children_recursive if child.type == "ARMATURE"]
+    return below[0] if len(below) == 1 else None
 
 
 def poll_idle(cls: Any) -> bool:

@@ -11,6 +11,7 @@
 #include "base/rounding.hpp"
 #include "base/take_limits.hpp"
 #include "io/rigid_matrix.hpp"
+#include "io/shown_feet.hpp"
 #include "skeleton/legs_to_ground.hpp"
 #include "skeleton/likely_tips.hpp"
 #include "skeleton/role_names.hpp"
@@ -290,7 +291,7 @@ Clip Rig::empty_clip(const std::string& name, double rate, int frames) const {
   return clip;
 }
 
-void Rig::store_pose(const Object& object, const Rigid* pose, int frame, Clip& clip) const {
+void Rig::store_pose(const Object& object, const Rigid* pose, int frame, Clip& clip, ShownFeet& feet) const {
   const int hips = skeleton().roles.hips;
   for (int b = hips; b < skeleton().size(); ++b) {
     if (!skeleton().is_below(b, hips)) continue;
@@ -298,14 +299,20 @@ void Rig::store_pose(const Object& object, const Rigid* pose, int frame, Clip& c
     const Quaternion above = b == hips ? object.rigid.rotation : pose[hangs_[bone]].rotation.conjugate();
     store_quaternion(above * pose[bone].rotation, &clip.rotations[4 * offset_of(frame, skeleton().size(), b)]);
   }
-  const Vector3 head = pose[skeleton_bones_[hips]].head;
-  store_vector(object.rigid.head + object.scale * (object.rigid.rotation * head.cwiseProduct(object.uneven)),
-               &clip.root_positions[3 * offset_of(frame, 1, 0)]);
+  const auto place = [&](const Rigid& bone) {
+    return Vector3{object.rigid.head + object.scale * (object.rigid.rotation * bone.head.cwiseProduct(object.uneven))};
+  };
+  store_vector(place(pose[skeleton_bones_[hips]]), &clip.root_positions[3 * offset_of(frame, 1, 0)]);
+  for (int leg = 0; leg < feet.legs().count(); ++leg) {
+    const Rigid& foot = pose[skeleton_bones_[feet.legs()[leg].foot]];
+    feet.show(frame, leg, place(foot) + object.rigid.rotation * (foot.rotation * feet.legs()[leg].ankle));
+  }
 }
 
 Clip Rig::clip(const std::string& name, double rate, int frames, const double* locations, const double* rotations,
                const double* worlds) const {
   Clip clip = empty_clip(name, rate, frames);
+  ShownFeet feet(kinematics_, frames);
   std::vector<Rigid> pose(bones());
   for (int f = 0; f < frames; ++f) {
     for (const int b : skeleton_bones_) {
@@ -314,14 +321,16 @@ Clip Rig::clip(const std::string& name, double rate, int frames, const double* l
       pose[b] = moved(b, pose.data(), checked_location(locations + 3 * at, name, f, label),
                       checked_rotation(rotations + 4 * at, name, f, label));
     }
-    store_pose(object_at(name, worlds, f), pose.data(), f, clip);
+    store_pose(object_at(name, worlds, f), pose.data(), f, clip, feet);
   }
+  feet.keep(clip);
   return make_clip(skeleton(), std::move(clip));
 }
 
 Clip Rig::clip_from_matrices(const std::string& name, double rate, int frames, const double* matrices,
                              const double* worlds) const {
   Clip clip = empty_clip(name, rate, frames);
+  ShownFeet feet(kinematics_, frames);
   std::vector<Rigid> pose(bones());
   std::vector<Quaternion> turned(bones(), Quaternion::Identity());  // away from rest, as last seen
   std::vector<bool> carries(bones(), false);
@@ -336,8 +345,9 @@ Clip Rig::clip_from_matrices(const std::string& name, double rate, int frames, c
       if (carries[b] || !is_squashed(matrix)) turned[b] = above.conjugate() * extract_rotation(matrix, label);
       pose[b] = {matrix.topRightCorner<3, 1>(), (above * turned[b]).normalized()};
     }
-    store_pose(object_at(name, worlds, f), pose.data(), f, clip);
+    store_pose(object_at(name, worlds, f), pose.data(), f, clip, feet);
   }
+  feet.keep(clip);
   return make_clip(skeleton(), std::move(clip));
 }
 

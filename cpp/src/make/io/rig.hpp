@@ -10,6 +10,8 @@
 
 namespace fragmotion {
 
+class ShownFeet;
+
 /// What an animation keys: per frame each bone's location and rotation relative to its rest in its parent.
 struct Channels {
   int frames = 0;
@@ -44,14 +46,14 @@ class Rig {
   double rise() const { return rise_; }
 
   /// Channels [frames, bones, 3] and [frames, bones, 4] (need not be unit) to a clip. `worlds` [frames, 4, 4], or null
-  /// where the object stands still; its scale must stay. Of the locations only what they do to the hips is kept.
-  /// Throws std::invalid_argument naming the clip, frame and bone.
+  /// where the object stands still; its scale must stay. Of the locations what they do to the hips is kept, and
+  /// where they bring the feet, as far as legs reach. Throws std::invalid_argument naming the clip, frame and bone.
   Clip clip(const std::string& name, double rate, int frames, const double* locations, const double* rotations,
             const double* worlds = nullptr) const;
 
-  /// Pose matrices [frames, bones, 4, 4] in the armature's space to a clip; their scale is dropped. A bone that carries
-  /// no other, an eye that blinks, may be squashed: it stays turned as it was seen last. Throws as clip does, also on a
-  /// mirrored or flat matrix of another bone.
+  /// Pose matrices [frames, bones, 4, 4] in the armature's space to a clip; their scale is dropped, but for where it
+  /// brings the feet. A bone that carries no other, an eye that blinks, may be squashed: it stays turned as it was seen
+  /// last. Throws as clip does, also on a mirrored or flat matrix of another bone.
   Clip clip_from_matrices(const std::string& name, double rate, int frames, const double* matrices,
                           const double* worlds = nullptr) const;
 
@@ -97,7 +99,7 @@ class Rig {
   Rigid moved(int bone, const Rigid* pose, const Vector3& location, const Quaternion& rotation) const;
 
   Clip empty_clip(const std::string& name, double rate, int frames) const;
-  void store_pose(const Object& object, const Rigid* pose, int frame, Clip& clip) const;
+  void store_pose(const Object& object, const Rigid* pose, int frame, Clip& clip, ShownFeet& feet) const;
   Channels resting_channels(int frames) const;
   void store_rotation(int bone, const Rigid* pose, int frame, Channels& channels) const;
   void store_location(int bone, const Rigid* pose, int frame, Channels& channels) const;
