@@ -186,6 +186,8 @@ Armature two_legs() {
     for (const double z : {0.9, 0.5, 0.1}) append(compose({x, 0, z}, up), armature.rest);
   }
   armature.lengths.assign(7, 0.1);
+  armature.inherit_rotation.assign(7, true);
+  armature.local_location.assign(7, true);
   append(compose({1, 2, 0}, Quaternion(Eigen::AngleAxisd(1, Vector3::UnitZ())), 2), armature.world);
   return armature;
 }

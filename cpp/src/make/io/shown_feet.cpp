@@ -30,9 +30,23 @@ bool ShownFeet::are_kept(const Clip& clip) const {
   return true;
 }
 
+Legs ShownFeet::bent_in(const Clip& clip) const {
+  Legs bent = legs_;
+  for (Leg& leg : bent) leg.hinge = Vector3::Zero();
+  for (int f = 0; f < clip.frames; ++f) {
+    const PosedBones bones = posed(clip, f);
+    for (Leg& leg : bent) leg.hinge += bend_axis(leg, bones);
+  }
+  for (int leg = 0; leg < bent.count(); ++leg) {
+    Vector3& hinge = bent[leg].hinge;
+    hinge = hinge.norm() > kRounding ? hinge.normalized() : legs_[leg].hinge;
+  }
+  return bent;
+}
+
 void ShownFeet::keep(Clip& clip) const {
   if (are_kept(clip)) return;
-  const Legs bent = find_legs(kinematics_, {clip});
+  const Legs bent = bent_in(clip);
   for (int f = 0; f < clip.frames; ++f) {
     const PosedBones bones = posed(clip, f);
     for (int leg = 0; leg < bent.count(); ++leg) {

@@ -8,14 +8,13 @@ namespace {
 
 constexpr int kApart = 5;  // frames of the clips that are looked at: each fifth
 
-// What bends the leg's knee in a pose, as the thigh sees it; the longer the more it is bent.
-Vector3 bend(const Leg& leg, const PosedBones& posed) {
+}  // namespace
+
+Vector3 bend_axis(const Leg& leg, const PosedBones& posed) {
   const Vector3 upper = posed.heads[leg.knee] - posed.heads[leg.thigh],
                 lower = ankle_of(leg, posed) - posed.heads[leg.knee];
   return posed.rotations[leg.thigh].conjugate() * upper.cross(lower) / (upper.norm() * lower.norm());
 }
-
-}  // namespace
 
 Legs find_legs(const Kinematics& kinematics, const std::vector<Clip>& clips) {
   Legs legs = resting_legs(kinematics.skeleton());
@@ -25,7 +24,7 @@ Legs find_legs(const Kinematics& kinematics, const std::vector<Clip>& clips) {
   for (const Clip& clip : clips) {
     for (int f = 0; f < clip.frames; f += kApart) {
       world(kinematics, clip, f, bones, posed.heads.data(), posed.rotations.data());
-      for (Leg& leg : legs) leg.hinge += bend(leg, posed);
+      for (Leg& leg : legs) leg.hinge += bend_axis(leg, posed);
     }
   }
   for (Leg& leg : legs) leg.hinge = leg.hinge.norm() > kRounding ? leg.hinge.normalized() : Vector3::UnitX();
