@@ -27,7 +27,8 @@ class Tips {
     PosedBones posed(kinematics.bones());
     for (int f = 0; f < clip.frames; ++f) {
       world(kinematics, clip, f, posed.heads.data(), posed.rotations.data());
-      for (const int b : bones_) tips_.push_back(posed.heads[b] + posed.rotations[b] * kinematics.skeleton().tips[b]);
+      for (const int b : bones_)
+        tips_.emplace_back(posed.heads[b] + posed.rotations[b] * kinematics.skeleton().tips[b]);
     }
   }
 
