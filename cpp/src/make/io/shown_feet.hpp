@@ -27,7 +27,7 @@ class ShownFeet {
   std::size_t at(int frame, int leg) const { return static_cast<std::size_t>(frame) * kMostLegs + leg; }
   bool are_kept(const Clip& clip) const;
   Legs bent_in(const Clip& clip) const;
-  PosedBones posed(const Clip& clip, int frame) const;
+  void pose(const Clip& clip, int frame, PosedBones& bones) const;
 
   const Kinematics& kinematics_;
   Legs legs_;
