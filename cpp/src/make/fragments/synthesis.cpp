@@ -87,8 +87,7 @@ void add_living_stand(FragmentPool& pool, const ControlSpace& space, double usua
 }
 
 // How long a take stands at most, s, where these fragments stand.
-double longest_stand(const FragmentPool& pool, const std::vector<int>& standing) {
-  const std::vector<int> next = successors(pool.fragments);
+double longest_stand(const FragmentPool& pool, const std::vector<int>& next, const std::vector<int>& standing) {
   double longest = 0;
   for (const int first : standing) {
     double seconds = 0;
@@ -103,8 +102,9 @@ double longest_stand(const FragmentPool& pool, const std::vector<int>& standing)
 // Fills the holes of a pool's control space.
 class Synthesizer {
  public:
-  Synthesizer(FragmentPool& pool, std::size_t takes, const ControlSpace& space, double usual, double longest,
-              int threads)
+  // `next`: successors() of the fragments.
+  Synthesizer(FragmentPool& pool, std::vector<int> next, std::size_t takes, const ControlSpace& space, double usual,
+              double longest, int threads)
       : pool_(pool),
         space_(space),
         usual_(usual),
@@ -115,7 +115,7 @@ class Synthesizer {
         trajectories_(trajectories(pool, kPoses, threads)),
         borne_gaits_(kinematics_, legs_, pool, kMostTempo),
         originals_(static_cast<int>(pool.fragments.size())),
-        next_(successors(pool.fragments)),
+        next_(std::move(next)),
         cycles_(closed_cycles(pool, trajectories_, space, takes)) {
     find_dip();
   }
@@ -403,7 +403,7 @@ class Synthesizer {
   Trajectories trajectories_;
   BorneGaits borne_gaits_;
   int originals_;
-  std::vector<int> next_;  // successors()
+  std::vector<int> next_;
   std::vector<ClosedCycle> cycles_;
   bool takes_jump_ = false;                     // then these show how high and fast
   double dip_ = kLeastDip;                      // m of a 1.8 m character that jumps on the spot
@@ -423,8 +423,9 @@ void synthesize(FragmentPool& pool, const ControlSpace& space, double usual, dou
   const bool mirrored = std::any_of(pool.fragments.begin(), pool.fragments.end(),
                                     [](const Fragment& f) { return f.origin == Origin::mirrored; });
   if (standing.empty()) add_standing(pool);
-  const bool stands_long = longest_stand(pool, standing) >= kStandsLong;
-  Synthesizer(pool, mirrored ? clips / 2 : clips, space, usual, longest, threads).fill();
+  std::vector<int> next = successors(pool.fragments);
+  const bool stands_long = longest_stand(pool, next, standing) >= kStandsLong;
+  Synthesizer(pool, std::move(next), mirrored ? clips / 2 : clips, space, usual, longest, threads).fill();
   if (stands_long) return;
   add_living_stand(pool, space, usual, static_cast<int>(standing.empty() ? clips : pool.clips.size()));
   if (standing.empty()) pool.fragments.erase(pool.fragments.begin() + static_cast<std::ptrdiff_t>(fragments));

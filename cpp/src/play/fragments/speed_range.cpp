@@ -12,7 +12,6 @@ namespace {
 constexpr double kBeyond = 1.3;  // of the takes' speed: a body goes so fast that never was seen to
 constexpr int kDirections = 72;
 constexpr double kTurn = 2 * kPi / kDirections;
-
 constexpr double kTurning = kPi / 6;  // rad/s
 
 double direction(const Control& control) { return std::atan2(control.x, control.y); }

@@ -45,15 +45,15 @@ void RootGovernor::reset(double heading) {
 }
 
 void RootGovernor::keep(const Vector2& faster, const Playback& playback) {
-  const Vector2 kept = pace() * faster, begins = pace() * playback.mean_travel().velocity;
+  const Vector2 kept = pace() * faster;
   velocity_ += kept;
-  if (!std::exchange(begins_, true) && !kept.isZero()) {
-    const Vector2 goes = begins + velocity_, ripple = kept - (played_ - begins),
-                  fades = clamp_length(ripple, limit_.acceleration() * playback.left());
-    const double commanded = limit_.velocity(playback.frame().heading).norm(),
-                 most = std::max({played_.norm(), begins.norm(), commanded}) + fades.norm();
-    velocity_ += clamp_length(goes - ripple + fades, most) - goes;
-  }
+  if (std::exchange(begins_, true) || kept.isZero()) return;
+  const Vector2 begins = pace() * playback.mean_travel().velocity, goes = begins + velocity_,
+                ripple = kept - (played_ - begins),
+                fades = clamp_length(ripple, limit_.acceleration() * playback.left());
+  const double commanded = limit_.velocity(playback.frame().heading).norm(),
+               most = std::max({played_.norm(), begins.norm(), commanded}) + fades.norm();
+  velocity_ += clamp_length(goes - ripple + fades, most) - goes;
 }
 
 void RootGovernor::steer(const Control& control, double seconds, Playback& playback) {
