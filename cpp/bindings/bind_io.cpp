@@ -171,6 +171,13 @@ std::map<int, int> hanging(const std::vector<std::string>& names, const std::vec
   return without_gil([&] { return find_hanging(names, parents, poses.data(), frames, candidates); });
 }
 
+double beside(const Doubles& poses, int bone, int other) {
+  check_shape(poses, "poses", {-1, -1, 4, 4});
+  const int frames = static_cast<int>(poses.shape(0)), bones = static_cast<int>(poses.shape(1));
+  for (const int each : {bone, other}) require_range("a bone", each, 0, bones - 1);
+  return without_gil([&] { return span_beside(poses.data(), frames, bones, bone, other); });
+}
+
 }  // namespace
 
 void bind_io(py::module_& m) {
@@ -178,6 +185,7 @@ void bind_io(py::module_& m) {
   bind_rotations(m);
   bind_rig(m);
   m.def("find_hanging", &hanging, py::arg("names"), py::arg("parents"), py::arg("poses"), py::arg("candidates"));
+  m.def("span_beside", &beside, py::arg("poses"), py::arg("bone"), py::arg("other"));
 }
 
 }  // namespace fragmotion::bindings

@@ -12,6 +12,7 @@
 #include "motion/mirror.hpp"
 #include "motion/motions_within.hpp"
 #include "motion/one_floor.hpp"
+#include "motion/stands.hpp"
 #include "motion/told_by_motion.hpp"
 #include "skeleton/kinematics.hpp"
 
@@ -240,6 +241,13 @@ void bind_clip(py::module_& m) {
           [](const Clip& clip, const Skeleton& skeleton) {
             check_bones(clip, skeleton);
             return without_gil([&] { return discontinuities(skeleton, clip); });
+          },
+          py::arg("skeleton"))
+      .def(
+          "stands",
+          [](const Clip& clip, const Skeleton& skeleton) {
+            check_bones(clip, skeleton);
+            return without_gil([&] { return stands(Kinematics(skeleton), clip); });
           },
           py::arg("skeleton"))
       .def(

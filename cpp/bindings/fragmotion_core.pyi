@@ -258,6 +258,10 @@ def find_hanging(
     in whose frame it goes least from frame to frame, where that is a third at most of what it goes in its parent's; two
     that are each other's left and right by their names hang alike."""
 
+def span_beside(poses: ArrayLike, bone: int, other: int) -> float:
+    """How far a bone's head goes to and fro as another bone sees it: the diagonal of the box that holds it in all of
+    the poses [F,B,4,4], in the armature's units."""
+
 class Clip:
     """One take on a skeleton at a fixed rate."""
 
@@ -293,6 +297,9 @@ class Clip:
     def discontinuities(self, skeleton: Skeleton) -> list[int]:
         """The frames that no body gets to from the frame before, in order: as after a calibration pose, or where one
         motion follows another in a file; none in a closed cycle."""
+    def stands(self, skeleton: Skeleton) -> bool:
+        """Whether the body stands in any frame: its hips are more over the middle between its feet than beside it. A
+        body without feet is taken to."""
     def motions_within(self, skeleton: Skeleton) -> list[tuple[int, int]]:
         """Of a clip on the spot that holds several motions, one after the other: the frames of its gaits and stands, of
         each the first and the one after the last; empty where it holds no gait or one motion alone."""

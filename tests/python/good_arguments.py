@@ -113,6 +113,7 @@ def good_arguments(folder: Path) -> dict[str, dict[str, Any]]:
             "poses": np.tile(upright, (2, 1, 1, 1)),
             "candidates": [1],
         },
+        "span_beside": {"poses": np.tile(upright, (2, 1, 1, 1)), "bone": 1, "other": 0},
         "Skeleton.relaxed_pose": {"self": skeleton},
         "Skeleton.role_map": {
             "self": skeleton,
@@ -190,6 +191,7 @@ def good_arguments(folder: Path) -> dict[str, dict[str, Any]]:
         "Clip.led_by_feet": {"self": walk, "skeleton": skeleton, "speed": 0.0},
         "Clip.may_go": {"self": walk, "skeleton": skeleton},
         "Clip.discontinuities": {"self": walk, "skeleton": skeleton},
+        "Clip.stands": {"self": walk, "skeleton": skeleton},
         "Clip.motions_within": {"self": walk, "skeleton": skeleton},
         "Clip.character_frames": {"self": walk, "skeleton": skeleton},
         "mirrored": {"skeleton": skeleton, "clips": clips[:1]},

@@ -7,7 +7,6 @@ from collections.abc import Generator, Sequence
 from typing import TYPE_CHECKING, NamedTuple
 
 import bpy
-import numpy as np
 from bpy.props import BoolProperty, EnumProperty, StringProperty
 
 from ..compat.core import core
@@ -126,16 +125,8 @@ def tell_ground(action: bpy.types.Action, clips: Sequence[Clip], skeleton: Skele
 
 
 def say_lying(clips: Sequence[Clip], skeleton: Skeleton) -> list[str]:
-    """That the body stands in none of these clips: from the middle between the feet to the hips is nearer level than
-    upright in all frames."""
-    hips = skeleton.names.index(skeleton.roles["hips"])
-    feet = [skeleton.names.index(bone) for role, bone in skeleton.roles.items() if role.endswith("foot")]
-    for clip in clips if feet else ():
-        heads = clip.world_transforms(skeleton)[0]
-        up = heads[:, hips] - heads[:, feet].mean(axis=1)
-        if (up[:, 2] > np.linalg.norm(up[:, :2], axis=1)).any():
-            return []
-    return [_LIES] if feet else []
+    """That the body stands in none of these clips."""
+    return [] if any(clip.stands(skeleton) for clip in clips) else [_LIES]
 
 
 def tell_anew(action: bpy.types.Action, code: str, severity: str, text: str, mendable: bool = False) -> None:

@@ -43,7 +43,7 @@ def find_hanging(context: bpy.types.Context, obj: bpy.types.Object, actions: Seq
         poses = np.concatenate([posing.sample_poses(context, obj, action, _times(action))[0] for action in actions])
         parents = [bones.find(bone.parent.name) if bone.parent else -1 for bone in bones]
         moving = core.find_hanging(bones.keys(), parents, poses, [bones.find(name) for name in candidates])
-        ways = {name: _way(poses, bones.find(name), bones.find(hips.name)) for name in candidates}
+        ways = {name: core.span_beside(poses, bones.find(name), bones.find(hips.name)) for name in candidates}
         found = {**found, **_beside_hips(obj, hips, candidates), **_on_body(obj, hips, moving)}
     for bone, on in sorted(found.items()):
         row = obj.fragmotion.hanging.add()
@@ -55,12 +55,6 @@ def moves_beside(obj: bpy.types.Object, rig: Rig, action: bpy.types.Action) -> b
     """Whether an Action moves bones against their parents that carry no body."""
     least, carrying = least_way(obj), carriers(obj, rig)
     return any(_is_moved(obj, action, bone, least) for bone in obj.data.bones if bone.name not in carrying)
-
-
-def _way(poses: Doubles, bone: int, hips: int) -> float:
-    """How far a bone goes as the hips see it, in the armature's units."""
-    axes, heads = poses[:, hips, :3, :3], poses[:, :, :3, 3]
-    return float(np.linalg.norm(np.ptp(np.einsum("fji,fj->fi", axes, heads[:, bone] - heads[:, hips]), axis=0)))
 
 
 def least_way(obj: bpy.types.Object) -> float:

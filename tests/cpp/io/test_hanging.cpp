@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -42,6 +43,18 @@ std::vector<double> swing() {
     poses.insert(poses.end(), each.begin(), each.end());
   }
   return poses;
+}
+
+TEST(Hanging, SpansWhatABoneGoesAsAnotherSeesIt) {
+  const std::vector<double> poses = swing();
+  EXPECT_NEAR(span_beside(poses.data(), 12, 7, 4, 3), 0, 1e-12) << "the foot is at the shin's end";
+  EXPECT_NEAR(span_beside(poses.data(), 12, 7, 6, 1), span_beside(poses.data(), 12, 7, 6, 0), 1e-12);
+  double least = 0, most = 0;
+  for (int f = 0; f < 12; ++f) {
+    least = std::min(least, 0.6 * std::sin(f));
+    most = std::max(most, 0.6 * std::sin(f));
+  }
+  EXPECT_NEAR(span_beside(poses.data(), 12, 7, 6, 0), (most - least) / 9, 1e-12) << "the pole goes up and down";
 }
 
 TEST(Hanging, IsFoundOfAFootThatIsNoChildOfItsLeg) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "io/hanging.hpp"
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <algorithm>
 #include <limits>
@@ -16,14 +17,20 @@ constexpr double kShare = 1.0 / 3;  // of what it goes as its parent sees it: fe
 
 class Straying {
  public:
-  Straying(const std::vector<int>& parents, const double* poses, int frames)
-      : parents_(parents), poses_(poses), frames_(frames) {}
+  Straying(const double* poses, int frames, int bones) : poses_(poses), frames_(frames), bones_(bones) {}
 
   // How far the head of a bone goes from frame to frame as another bone sees it, summed; -1: as the armature does.
   double of(int bone, int from) const {
     double sum = 0;
     for (int f = 1; f < frames_; ++f) sum += (seen(f, bone, from) - seen(f - 1, bone, from)).norm();
     return sum;
+  }
+
+  // The diagonal of the box that holds it.
+  double span(int bone, int from) const {
+    Eigen::AlignedBox3d box;
+    for (int f = 0; f < frames_; ++f) box.extend(seen(f, bone, from));
+    return box.isEmpty() ? 0 : box.diagonal().norm();
   }
 
  private:
@@ -33,16 +40,15 @@ class Straying {
   }
 
   RowMajor pose(int frame, int bone) const {
-    return RowMajor(poses_ + 16 * (static_cast<std::size_t>(frame) * parents_.size() + bone));
+    return RowMajor(poses_ + 16 * (static_cast<std::size_t>(frame) * bones_ + bone));
   }
 
   static Vector3 local(const RowMajor& frame, const Vector3& point) {
     return frame.topLeftCorner<3, 3>().inverse() * (point - frame.topRightCorner<3, 1>());
   }
 
-  const std::vector<int>& parents_;
   const double* poses_;
-  int frames_;
+  int frames_, bones_;
 };
 
 // Of bones beside each other that go together, as the trunk and the legs of a body without a bone that carries them
@@ -76,6 +82,10 @@ bool moves(const std::vector<int>& parents, const std::map<int, int>& hanging, i
 
 }  // namespace
 
+double span_beside(const double* poses, int frames, int bones, int bone, int other) {
+  return Straying(poses, frames, bones).span(bone, other);
+}
+
 std::map<int, int> find_hanging(const std::vector<std::string>& names, const std::vector<int>& parents,
                                 const double* poses, int frames, const std::vector<int>& candidates) {
   const std::vector<BoneName> read = read_names(names);
@@ -83,7 +93,7 @@ std::map<int, int> find_hanging(const std::vector<std::string>& names, const std
     const int other = read[bone].counterpart;
     return other >= 0 && read[other].counterpart == bone ? other : bone;
   };
-  const Straying straying(parents, poses, frames);
+  const Straying straying(poses, frames, static_cast<int>(parents.size()));
   std::map<int, int> hanging;
   for (const int bone : candidates) {
     if (hanging.count(bone)) continue;

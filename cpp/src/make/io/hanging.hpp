@@ -15,6 +15,10 @@ namespace fragmotion {
 std::map<int, int> find_hanging(const std::vector<std::string>& names, const std::vector<int>& parents,
                                 const double* poses, int frames, const std::vector<int>& candidates);
 
+/// How far the head of a bone goes to and fro as another bone sees it: the diagonal of the box that holds it in all
+/// poses [frames, bones, 4, 4], in the armature's units.
+double span_beside(const double* poses, int frames, int bones, int bone, int other);
+
 /// The bones, in their order but each after its parent and the one that it hangs on; without those that hang on a bone
 /// that they move.
 std::vector<int> ordered_bones(const std::vector<int>& parents, const std::vector<int>& hangs);
