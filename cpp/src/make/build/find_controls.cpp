@@ -75,9 +75,10 @@ std::vector<double> going_speeds(const std::vector<Control>& evident, double sca
 
 // Those that go straight ahead: who turns, or goes aside or back, is slower.
 std::vector<Control> straight_ahead(const std::vector<Control>& evident) {
+  const double unit = ControlSpace().turn_rate();
   std::vector<Control> ahead;
   std::copy_if(evident.begin(), evident.end(), std::back_inserter(ahead),
-               [](const Control& ev) { return goes_straight_ahead(ev, ControlSpace().turn_rate()); });
+               [&](const Control& ev) { return goes_straight_ahead(ev, unit); });
   return ahead;
 }
 

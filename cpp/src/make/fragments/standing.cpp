@@ -43,17 +43,19 @@ struct FlatFoot {
 class Stance {
  public:
   Stance(const Kinematics& kinematics, const Legs& legs)
-      : kinematics_(kinematics), legs_(legs), posed_(kinematics.bones()) {}
+      : kinematics_(kinematics),
+        legs_(legs),
+        measured_(measured_bones(kinematics.skeleton())),
+        posed_(kinematics.bones()) {}
 
   void add(const BodyPose& body) {
     pose(body);
     if (mean_.rotations.empty()) mean_.rotations.resize(body.rotations.size(), 0);
     for (std::size_t b = 0; b < body.rotations.size(); b += 4) add_rotation(&body.rotations[b], &mean_.rotations[b]);
     mean_.height += body.height;
-    floor_ += lowest_tip();
     ++count_;
-    if (!is_upright()) return;
-    for (int side = 0; side < 2; ++side) add_foot(side, body);
+    if (!is_upright()) floor_ += lowest_tip();
+    for (int side = 0; side < 2 && is_upright(); ++side) add_foot(side, body);
   }
 
   BodyPose result() {
@@ -80,7 +82,7 @@ class Stance {
 
   double lowest_tip() const {
     double lowest = std::numeric_limits<double>::infinity();
-    for (const int b : measured_bones(kinematics_.skeleton())) {
+    for (const int b : measured_) {
       lowest = std::min(lowest, (posed_.heads[b] + posed_.rotations[b] * kinematics_.skeleton().tips[b]).z());
     }
     return lowest;
@@ -126,6 +128,7 @@ class Stance {
 
   const Kinematics& kinematics_;
   const Legs& legs_;
+  std::vector<int> measured_;
   PosedBones posed_;
   BodyPose mean_;
   std::array<FlatFoot, 2> feet_;

@@ -15,12 +15,13 @@ constexpr double kSpeed = 20;      // m/s
 // A clip's bones, as they turn from frame to frame.
 class Turns {
  public:
-  Turns(const Skeleton& skeleton, const Clip& clip) : clip_(clip), width_(std::size_t{4} * skeleton.size()) {}
+  Turns(const Skeleton& skeleton, const Clip& clip)
+      : clip_(clip), width_(std::size_t{4} * skeleton.size()), near_(std::cos(kTurn / 2)) {}
 
   // By more than kTurn, and by so much otherwise than in the frames before and after: a limb that is swung fast is in
   // line with one of them.
   bool tear(int bone, int f) const {
-    if (std::abs(at(bone, f).dot(at(bone, f - 1))) >= std::cos(kTurn / 2)) return false;
+    if (std::abs(at(bone, f).dot(at(bone, f - 1))) >= near_) return false;
     const Vector3 turn = to(bone, f);
     const bool goes_on = f > 1 && (turn - to(bone, f - 1)).norm() <= kTurn,
                goes_on_after = f + 1 < clip_.frames && (turn - to(bone, f + 1)).norm() <= kTurn;
@@ -40,6 +41,7 @@ class Turns {
 
   const Clip& clip_;
   std::size_t width_;
+  double near_;  // cosine of half of kTurn
 };
 
 // Whether it ends in the pose in which it begins: a cycle that somebody drew, or closed by hand.

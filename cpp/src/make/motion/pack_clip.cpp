@@ -3,9 +3,11 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
+#include "base/vectorised.hpp"
 #include "motion/pose.hpp"
 
 namespace fragmotion {
@@ -55,15 +57,20 @@ Matrix3 aim_of(const std::vector<Vector3>& ends, double lever) {
   return squares.inverse() * cross_matrix(sum);
 }
 
-// The mean of a bone's rotations; none where they have no mean.
-Quaternion mean_rotation(const std::vector<Clip>& clips, int bone, int bones) {
-  Eigen::Vector4d sum = Eigen::Vector4d::Zero();
+// The mean of each bone's rotations; none where they have no mean.
+std::vector<Quaternion> mean_rotations(const std::vector<Clip>& clips, int bones) {
+  std::vector<double> sums(std::size_t{4} * bones, 0);
   for (const Clip& clip : clips) {
-    for (int f = 0; f < clip.frames; ++f) {
-      add_rotation(&clip.rotations[4 * (static_cast<std::size_t>(f) * bones + bone)], sum.data());
+    for (std::size_t pose = 0; pose < clip.rotations.size(); pose += sums.size()) {
+      for (std::size_t b = 0; b < sums.size(); b += 4) add_rotation(&clip.rotations[pose + b], &sums[b]);
     }
   }
-  return sum.norm() < 0.5 ? Quaternion::Identity() : load_quaternion(sum.data()).normalized();
+  std::vector<Quaternion> means;
+  for (std::size_t b = 0; b < sums.size(); b += 4) {
+    const Quaternion sum = load_quaternion(&sums[b]);
+    means.push_back(sum.norm() < 0.5 ? Quaternion::Identity() : sum.normalized());
+  }
+  return means;
 }
 
 std::vector<float> no_rotations(const PoseGrid& grid) {
@@ -91,74 +98,116 @@ PoseMirror pose_mirror(const PoseGrid& grid, const MirrorTurns& turns) {
 }
 
 // axis * tan(angle / 4), where the angle is at most half a turn.
-Vector3 turn_of(const Quaternion& q) { return q.w() < 0 ? Vector3{-q.vec() / (1 - q.w())} : q.vec() / (1 + q.w()); }
-
-Quaternion rotation_of(const Vector3& turn) {
-  const double square = turn.squaredNorm(), scale = 1 / (1 + square);
-  Quaternion q;
-  q.w() = (1 - square) * scale;
-  q.vec() = 2 * scale * turn;
-  return q;
+[[gnu::always_inline]] inline Vector3 turn_of(const Quaternion& q) {
+  const double side = std::copysign(1.0, q.w()), scale = 1 + side * q.w();
+  return {side * q.x() / scale, side * q.y() / scale, side * q.z() / scale};
 }
 
-// The turns of a clip's poses in whole steps.
+[[gnu::always_inline]] inline Quaternion rotation_of(double x, double y, double z) {
+  const double square = x * x + (y * y + z * z), scale = 1 / (1 + square), twice = 2 * scale;
+  return {(1 - square) * scale, twice * x, twice * y, twice * z};
+}
+
+// The turns of a clip's poses in whole steps; of as many poses at once as elsewhere of bones.
 class Quantizer {
  public:
   Quantizer(const Skeleton& skeleton, const PoseGrid& grid)
-      : skeleton_(skeleton), grid_(grid), bones_(skeleton.size()) {
+      : skeleton_(skeleton), width_(std::size_t{3} * kBoneBlock * grid.blocks()), posed_(skeleton.size()) {
     const double lever = kLever / standard_scale(skeleton);
     const auto ends = bone_ends(skeleton);
-    for (int b = 0; b < skeleton.size(); ++b) {
-      bones_[b].follows = skeleton.is_below(b, skeleton.roles.hips) && b != skeleton.roles.hips;
-      bones_[b].usual = quaternion_of(grid.usual, b);
-      bones_[b].aim = aim_of(ends[b], lever);
-    }
+    for (int b = 0; b < skeleton.size(); ++b)
+      bones_.push_back({quaternion_of(grid.usual, b), aim_of(ends[b], lever), skeleton.offsets[b], grid.steps[b]});
   }
 
-  // Writes a pose's numbers [blocks, 3, kBoneBlock].
-  void operator()(const double* rotations, std::int32_t* numbers) {
-    for (int b = 0; b < skeleton_.size(); ++b) {
-      Bone& bone = bones_[b];
-      const Quaternion local = load_quaternion(rotations + std::ptrdiff_t{4} * b);
-      if (!bone.follows) {
-        bone.exact = local;
-        bone.kept = keep(b, local, numbers);
-        continue;
+  // Writes the numbers [frames, blocks, 3, kBoneBlock] of so many poses [frames, bones, 4], at most kBoneBlock.
+  void operator()(const double* rotations, int frames, std::int32_t* numbers) {
+    const int hips = skeleton_.roles.hips;
+    const std::size_t pose = std::size_t{4} * skeleton_.size();
+    for (int b = 0; b < skeleton_.size(); ++b, rotations += 4) {
+      Posed& posed = posed_[b];
+      for (int i = 0; i < kBoneBlock; ++i) {
+        for (int part = 0; part < 4; ++part) posed.exact[part][i] = rotations[pose * std::min(i, frames - 1) + part];
       }
-      const Bone& parent = bones_[skeleton_.parents[b]];
-      bone.exact = parent.exact * local;
-      bone.off = parent.off + parent.exact * skeleton_.offsets[b] - parent.kept * skeleton_.offsets[b];
-      bone.kept = parent.kept * keep(b, parent.kept.conjugate() * aimed(bone), numbers);
+      if (b != hips && skeleton_.is_below(b, hips)) {
+        follow(bones_[b], posed_[skeleton_.parents[b]], posed);
+      } else {
+        begin(bones_[b], posed);
+      }
+      for (int axis = 0; axis < 3; ++axis) {
+        std::int32_t* to = numbers + place_of(b, axis, 3);
+        for (int i = 0; i < frames; ++i, to += width_) *to = static_cast<std::int32_t>(posed.steps[axis][i]);
+      }
     }
   }
 
  private:
+  template <int kParts>
+  using Lanes = std::array<std::array<double, kBoneBlock>, kParts>;
+
   struct Bone {
-    bool follows = false;  // its parent
     Quaternion usual;
     Matrix3 aim;
-    Quaternion exact, kept;         // in the world, of this pose
-    Vector3 off = Vector3::Zero();  // from its head as it is kept to where it is
+    Vector3 offset;
+    double step;
   };
 
-  // The rotation in the world at which a bone's ends are where they should be.
-  static Quaternion aimed(const Bone& bone) {
-    const Vector3 turn = bone.aim * (bone.exact.conjugate() * bone.off);
-    return bone.exact * rotation_of(turn / 4);
+  // A bone in these poses.
+  struct Posed {
+    Lanes<4> exact{}, kept{};  // in the world; at first `exact` is the rotation in the parent
+    Lanes<3> off{};            // from its head as it is kept to where it is
+    Lanes<3> steps{};
+  };
+
+  [[gnu::always_inline]] static Quaternion turn(const Lanes<4>& lanes, int i) {
+    return {lanes[0][i], lanes[1][i], lanes[2][i], lanes[3][i]};
+  }
+  [[gnu::always_inline]] static void set(const Quaternion& turn, int i, Lanes<4>& lanes) {
+    lanes[0][i] = turn.w(), lanes[1][i] = turn.x(), lanes[2][i] = turn.y(), lanes[3][i] = turn.z();
   }
 
-  // Writes a bone's numbers; returns the rotation that they stand for.
-  Quaternion keep(int bone, const Quaternion& wanted, std::int32_t* numbers) const {
-    const Quaternion& usual = bones_[bone].usual;
-    const double step = grid_.steps[bone];
-    const Vector3 steps = (turn_of(usual.conjugate() * wanted) / step).array().round();
-    for (int axis = 0; axis < 3; ++axis) numbers[place_of(bone, axis, 3)] = static_cast<std::int32_t>(steps[axis]);
-    return usual * rotation_of(step * steps);
+  // The nearest whole number: so far from 0 doubles are whole.
+  [[gnu::always_inline]] static double rounded(double number) {
+    constexpr double far = 3LL << 51;
+    return (number + far) - far;
+  }
+
+  // Writes the numbers of a bone's turn; returns the rotation that they stand for.
+  [[gnu::always_inline]] static Quaternion keep(const Bone& bone, const Quaternion& wanted, int i, Posed& posed) {
+    const Vector3 turn = turn_of(product(bone.usual.conjugate(), wanted));
+    const double x = rounded(turn.x() / bone.step), y = rounded(turn.y() / bone.step),
+                 z = rounded(turn.z() / bone.step);
+    posed.steps[0][i] = x, posed.steps[1][i] = y, posed.steps[2][i] = z;
+    return product(bone.usual, rotation_of(bone.step * x, bone.step * y, bone.step * z));
+  }
+
+  FRAGMOTION_VECTORISED static void begin(Bone bone, Posed& posed) {
+    for (int i = 0; i < kBoneBlock; ++i) set(keep(bone, turn(posed.exact, i), i, posed), i, posed.kept);
+  }
+
+  // The bone is turned so that its ends are where they should be, from where its head is.
+  FRAGMOTION_VECTORISED static void follow(Bone bone, const Posed& __restrict parent, Posed& __restrict posed) {
+    const Matrix3& aim = bone.aim;
+    for (int i = 0; i < kBoneBlock; ++i) {
+      const Quaternion above = turn(parent.exact, i), kept = turn(parent.kept, i),
+                       exact = product(above, turn(posed.exact, i));
+      const Vector3 there = turned(above, bone.offset), here = turned(kept, bone.offset);
+      const double x = parent.off[0][i] + there.x() - here.x(), y = parent.off[1][i] + there.y() - here.y(),
+                   z = parent.off[2][i] + there.z() - here.z();
+      const Vector3 seen = turned(exact.conjugate(), {x, y, z});
+      const auto turned_by = [&](int row) {
+        return (aim(row, 0) * seen.x() + (aim(row, 1) * seen.y() + aim(row, 2) * seen.z())) / 4;
+      };
+      const Quaternion aimed = product(exact, rotation_of(turned_by(0), turned_by(1), turned_by(2)));
+      set(exact, i, posed.exact);
+      posed.off[0][i] = x, posed.off[1][i] = y, posed.off[2][i] = z;
+      set(product(kept, keep(bone, product(kept.conjugate(), aimed), i, posed)), i, posed.kept);
+    }
   }
 
   const Skeleton& skeleton_;
-  const PoseGrid& grid_;
+  std::size_t width_;  // numbers of a pose
   std::vector<Bone> bones_;
+  std::vector<Posed> posed_;
 };
 
 int bits_for(std::uint32_t largest) {
@@ -171,16 +220,26 @@ int bits_for(std::uint32_t largest) {
 class BitWriter {
  public:
   explicit BitWriter(std::uint8_t* bytes) : bytes_(bytes) {}
+  BitWriter(const BitWriter&) = delete;
+  BitWriter& operator=(const BitWriter&) = delete;
+  ~BitWriter() {
+    for (; count_ > 0; count_ -= 8) write_byte();
+  }
 
   void operator()(std::uint32_t number, int bits) {
-    std::uint64_t shifted = std::uint64_t{number} << (at_ & 7);
-    for (std::uint8_t* byte = bytes_ + (at_ >> 3); shifted > 0; shifted >>= 8) *byte++ |= shifted & 0xff;
-    at_ += bits;
+    held_ |= std::uint64_t{number} << count_;
+    for (count_ += bits; count_ >= 8; count_ -= 8) write_byte();
   }
 
  private:
+  void write_byte() {
+    *bytes_++ = held_ & 0xff;
+    held_ >>= 8;
+  }
+
   std::uint8_t* bytes_;
-  unsigned at_ = 0;
+  std::uint64_t held_ = 0;
+  int count_ = 0;  // bits that are held
 };
 
 // Place and heading of each frame: root x, y, z, heading.
@@ -213,8 +272,9 @@ std::vector<std::int32_t> steps_of(const Skeleton& skeleton, const PoseGrid& gri
   const std::size_t width = std::size_t{3} * kBoneBlock * grid.blocks();
   std::vector<std::int32_t> steps(width * clip.frames, 0);
   Quantizer quantizer(skeleton, grid);
-  for (int f = 0; f < clip.frames; ++f) {
-    quantizer(&clip.rotations[std::size_t{4} * skeleton.size() * f], &steps[width * f]);
+  for (int f = 0; f < clip.frames; f += kBoneBlock) {
+    quantizer(&clip.rotations[std::size_t{4} * skeleton.size() * f], std::min(kBoneBlock, clip.frames - f),
+              &steps[width * f]);
   }
   return steps;
 }
@@ -256,8 +316,9 @@ PoseGrid pose_grid(const Skeleton& skeleton, const std::vector<Clip>& clips, con
   grid.steps.assign(static_cast<std::size_t>(kBoneBlock) * grid.blocks(), 1);
   const double scale = standard_scale(skeleton);
   const auto ends = bone_ends(skeleton);
+  const std::vector<Quaternion> means = mean_rotations(clips, grid.bones);
   for (int b = 0; b < grid.bones; ++b) {
-    set_rotation(mean_rotation(clips, b, grid.bones), b, grid.usual);
+    set_rotation(means[b], b, grid.usual);
     const double off = std::min(kMostOff, kReach / (longest(ends[b]) * scale));
     grid.steps[b] = static_cast<float>(std::max(kFinest, off / kOff));
   }
