@@ -100,10 +100,36 @@ Mirror::Mirror(const Kinematics& kinematics, const std::vector<Clip>& clips)
 }
 
 Clip Mirror::operator()(const Clip& clip) const {
-  const Skeleton& skeleton = kinematics_.skeleton();
-  const int bones = kinematics_.bones();
   Clip result = clip;
   result.name += " mirrored";
+  const MirrorTurns turns = this->turns();
+  if (turns.counterparts.empty()) {
+    mirror_in_world(clip, result);
+  } else {
+    mirror_in_parents(clip, turns, result);
+  }
+  for (int f = 0; f < clip.frames; ++f) {
+    result.root_positions[3 * f] = -clip.root_positions[3 * f];
+    result.headings[f] = -clip.headings[f];
+  }
+  return make_clip(kinematics_.skeleton(), std::move(result));
+}
+
+void Mirror::mirror_in_parents(const Clip& clip, const MirrorTurns& turns, Clip& result) const {
+  const std::size_t width = std::size_t{4} * kinematics_.bones();
+  for (std::size_t pose = 0; pose < clip.rotations.size(); pose += width) {
+    for (int b = 0; b < kinematics_.bones(); ++b) {
+      const Quaternion other = load_quaternion(&clip.rotations[pose + std::size_t{4} * turns.counterparts[b]]);
+      store_quaternion(product(product(turns.before[b], other), turns.after[b]),
+                       &result.rotations[pose + std::size_t{4} * b]);
+    }
+  }
+}
+
+// Of a skeleton whose bones hang otherwise on one side than on the other.
+void Mirror::mirror_in_world(const Clip& clip, Clip& result) const {
+  const Skeleton& skeleton = kinematics_.skeleton();
+  const int bones = kinematics_.bones();
   Pose pose(bones);
   std::vector<Quaternion> mirrored(bones);
   std::vector<int> turned;
@@ -121,10 +147,7 @@ Clip Mirror::operator()(const Clip& clip) const {
       store_quaternion(hips ? mirrored[b] : mirrored[skeleton.parents[b]].inverse() * mirrored[b],
                        &result.rotations[4 * (static_cast<std::size_t>(f) * bones + b)]);
     }
-    result.root_positions[3 * f] = -clip.root_positions[3 * f];
-    result.headings[f] = -clip.headings[f];
   }
-  return make_clip(skeleton, std::move(result));
 }
 
 // Two reflections make a rotation: with W' = S W_counterpart turn, and S = -(half a turn about x), a bone's rotation in

@@ -28,6 +28,9 @@ class Mirror {
   MirrorTurns turns() const;
 
  private:
+  void mirror_in_parents(const Clip& clip, const MirrorTurns& turns, Clip& result) const;
+  void mirror_in_world(const Clip& clip, Clip& result) const;
+
   const Kinematics& kinematics_;
   std::vector<int> counterpart_;
   std::vector<int> still_;             // fingers that no take moves, in ascending order
