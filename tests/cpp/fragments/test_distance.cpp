@@ -154,12 +154,28 @@ TEST(FragmentDistance, IsThatOfACharacterOfOneEightyWhateverItsSize) {
   }
 }
 
+void expect_same_bits(const Trajectories& a, const Trajectories& b) {
+  EXPECT_EQ(a.count, b.count);
+  EXPECT_TRUE(a.whole == b.whole);
+  EXPECT_EQ(a.first, b.first);
+  EXPECT_EQ(a.last, b.last);
+}
+
 TEST(Trajectories, AreTheSameBitsForAnyNumberOfThreads) {
   const FragmentPool pool = small_pool();
-  const Trajectories one = trajectories(pool, 16, 1), three = trajectories(pool, 16, 3);
-  EXPECT_TRUE(one.whole == three.whole);
-  EXPECT_EQ(one.first, three.first);
-  EXPECT_EQ(one.last, three.last);
+  expect_same_bits(trajectories(pool, 16, 1), trajectories(pool, 16, 3));
+}
+
+TEST(Trajectories, AreTheSameBitsWhereSomeAreKnown) {
+  FragmentPool pool = small_pool();
+  const std::size_t all = pool.fragments.size();
+  for (const std::size_t count : {std::size_t{0}, std::size_t{1}, all / 2, all}) {
+    FragmentPool part = pool;
+    part.fragments.resize(count);
+    const Trajectories known = trajectories(part);
+    pool.fragments[0].lead_out = 1 - pool.fragments[0].lead_out;  // how it is played may be known later
+    expect_same_bits(trajectories(pool, kPoses, 3, known), trajectories(pool));
+  }
 }
 
 }  // namespace

@@ -146,9 +146,17 @@ void report_held(Character& c, const FragmentPool& pool) {
   c.report["jump_held"] = held.jump ? 1 : 0;
 }
 
-// Fragments that differ by less than single precision are the same.
 void round_to_single(std::vector<double>& values) {
   for (double& value : values) value = static_cast<float>(value);
+}
+
+// Fragments that differ by less than single precision are the same.
+FragmentPool in_single(FragmentPool pool) {
+  for (Clip& clip : pool.clips) {
+    for (std::vector<double>* values : {&clip.root_positions, &clip.rotations, &clip.headings})
+      round_to_single(*values);
+  }
+  return pool;
 }
 
 // What many fragments perform must not take all classes from what few do. Hops that turn may be in a class with those
@@ -272,11 +280,9 @@ Material prepare(const Skeleton& skeleton, const std::vector<Clip>& clips, const
   report_held(c, pool);
   c.report["cut_seconds"] = stage.lap();
   report(progress, 0.5, "Synthesizing fragments");
-  if (options.synthesize) synthesize(pool, c.space, usual, options.cut.longest, options.threads);
-  for (Clip& clip : pool.clips) {
-    for (std::vector<double>* values : {&clip.root_positions, &clip.rotations, &clip.headings})
-      round_to_single(*values);
-  }
+  material.trajectories = trajectories(in_single(pool), kPoses, options.threads);
+  if (options.synthesize) synthesize(pool, c.space, usual, options.cut.longest, options.threads, material.trajectories);
+  pool = in_single(std::move(pool));
   c.contacts = contacts_of(pool, options.threads);
   c.legs = find_legs(kinematics, pool.clips);
   c.pool = pack(pool, images, options.threads);
@@ -287,7 +293,7 @@ Material prepare(const Skeleton& skeleton, const std::vector<Clip>& clips, const
   c.report["fragments"] = static_cast<double>(c.pool.fragments.size());
   c.report["synthesize_seconds"] = stage.lap();
   report(progress, 0.9, "Measuring fragments");
-  material.trajectories = trajectories(pool, kPoses, options.threads);
+  material.trajectories = trajectories(pool, kPoses, options.threads, std::move(material.trajectories));
   c.entry_poses = entry_poses(c.pool);
   for (const Trace& trace : traces) material.traces.push_back(snap(c.space, able_trace(c.speeds, trace)));
   c.report["measure_seconds"] = stage.lap();

@@ -30,10 +30,11 @@ struct Trajectories {
 /// The most poses of a trajectory: half a second sampled as often as any camera does it holds no more.
 constexpr int kMostPoses = 1000;
 
-/// Samples every fragment of the pool, packed or not, at `poses` times. Throws std::invalid_argument unless these are 2
-/// to kMostPoses.
+/// Samples every fragment of the pool, packed or not, at `poses` times; but for the first ones, of which as many are
+/// `known`, sampled so, and of which not more is seen anew than with which poses their playing begins and ends. Throws
+/// std::invalid_argument unless the times are 2 to kMostPoses.
 template <typename AnyClip>
-Trajectories trajectories(const Pool<AnyClip>& pool, int poses = kPoses, int threads = 0);
+Trajectories trajectories(const Pool<AnyClip>& pool, int poses = kPoses, int threads = 0, Trajectories known = {});
 
 /// Dis(f, g) of two fragments: summed over corresponding poses.
 float fragment_distance(const Trajectories& t, int f, int g);

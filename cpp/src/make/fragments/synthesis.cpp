@@ -104,7 +104,7 @@ class Synthesizer {
  public:
   // `next`: successors() of the fragments.
   Synthesizer(FragmentPool& pool, std::vector<int> next, std::size_t takes, const ControlSpace& space, double usual,
-              double longest, int threads)
+              double longest, int threads, const Trajectories& known)
       : pool_(pool),
         space_(space),
         usual_(usual),
@@ -112,7 +112,7 @@ class Synthesizer {
         threads_(thread_count(threads)),
         kinematics_(pool.skeleton),
         legs_(find_legs(kinematics_, pool.clips)),
-        trajectories_(trajectories(pool, kPoses, threads)),
+        trajectories_(trajectories(pool, kPoses, threads, known)),
         borne_gaits_(kinematics_, legs_, pool, kMostTempo),
         originals_(static_cast<int>(pool.fragments.size())),
         next_(std::move(next)),
@@ -413,7 +413,8 @@ class Synthesizer {
 
 }  // namespace
 
-void synthesize(FragmentPool& pool, const ControlSpace& space, double usual, double longest, int threads) {
+void synthesize(FragmentPool& pool, const ControlSpace& space, double usual, double longest, int threads,
+                const Trajectories& known) {
   require_range("the longest fragment (s)", longest, 0.1, 10);
   std::vector<int> standing;
   for (std::size_t f = 0; f < pool.fragments.size(); ++f) {
@@ -425,7 +426,7 @@ void synthesize(FragmentPool& pool, const ControlSpace& space, double usual, dou
   if (standing.empty()) add_standing(pool);
   std::vector<int> next = successors(pool.fragments);
   const bool stands_long = longest_stand(pool, next, standing) >= kStandsLong;
-  Synthesizer(pool, std::move(next), mirrored ? clips / 2 : clips, space, usual, longest, threads).fill();
+  Synthesizer(pool, std::move(next), mirrored ? clips / 2 : clips, space, usual, longest, threads, known).fill();
   if (stands_long) return;
   add_living_stand(pool, space, usual, static_cast<int>(standing.empty() ? clips : pool.clips.size()));
   if (standing.empty()) pool.fragments.erase(pool.fragments.begin() + static_cast<std::ptrdiff_t>(fragments));

@@ -55,6 +55,11 @@ FRAGMOTION_VECTORISED float distance_of(const std::int16_t* a, float unit, const
 TipRows::TipRows(int count, int points)
     : stride_((points + kBlock - 1) / kBlock * kBlock), units_(count, 0), values_(count * width(), 0) {}
 
+void TipRows::resize(int count) {
+  units_.resize(count, 0);
+  values_.resize(count * width(), 0);
+}
+
 void TipRows::set(int i, const float* from) {
   const float largest = largest_of(from, width());
   if (!(largest <= kFarthestPlace)) {

@@ -24,6 +24,9 @@ class TipRows {
   int stride() const { return stride_; }                          ///< Coordinates in a row.
   std::size_t width() const { return std::size_t{3} * stride_; }  ///< Coordinates of a fragment.
 
+  /// Drops the last fragments, or adds such of which all coordinates are 0.
+  void resize(int count);
+
   /// Takes a fragment's coordinates [3, stride], in m. Throws std::invalid_argument on one that is not a number, or is
   /// more than a million kilometres.
   void set(int i, const float* from);
