@@ -16,10 +16,9 @@ namespace {
 constexpr double kAsked = 6, kJudged = 4;                     // s: drawn limps take as long for two steps
 constexpr double kOfSpeed = 0.2, kOfTurn = 0.3, kSlow = 0.1;  // m/s of a 1.8 m character
 
-bool is_done(const std::shared_ptr<const Character>& character, const Control& control) {
-  const ControlSpace& space = character->space;
+bool is_done(const Player& player, const ControlSpace& space, const Control& control) {
   Trace trace(static_cast<std::size_t>(kAsked * kTraceRate), control);
-  const Performance shown = perform(Player(character), trace, kPoseRate);
+  const Performance shown = perform(player.another({}), trace, kPoseRate);
   const int begin = static_cast<int>((kAsked - kJudged) * kPoseRate);
   const auto at = [&](int f) { return &shown.path[std::size_t{3} * f]; };
   Vector2 velocity = Vector2::Zero();
@@ -41,10 +40,11 @@ std::vector<char> abilities(const std::shared_ptr<const Character>& character, i
   const ControlSpace& space = character->space;
   const std::vector<double> distances = coverage(character->pool.fragments, space).distances;
   std::vector<char> done(space.size());
+  const Player player(character);  // what the others share takes longer to be found than to play one
   parallel_for(space.size(), thread_count(threads), [&](int begin, int end) {
     for (int c = begin; c < end; ++c) {
       const Control control = space.point(c);
-      done[c] = control.jumps() ? distances[c] <= kPerformed : is_done(character, control);
+      done[c] = control.jumps() ? distances[c] <= kPerformed : is_done(player, space, control);
     }
   });
   return done;
