@@ -34,8 +34,8 @@ def rate_of(action: bpy.types.Action, key: str, default: float) -> float:
 
 def animated_bones(action: bpy.types.Action, obj: bpy.types.Object) -> set[str]:
     """Names of the bones that the Action's F-curves move, whether or not the armature has them."""
-    matches = (_BONE.match(curve.data_path) for curve in versions.curves_of(action, obj))
-    return {re.sub(r"\\(.)", r"\1", match[1]) for match in matches if match}
+    paths = {curve.data_path for curve in versions.curves_of(action, obj)}
+    return {re.sub(r"\\(.)", r"\1", match[1]) for match in map(_BONE.match, paths) if match}
 
 
 def fits(action: bpy.types.Action, obj: bpy.types.Object) -> bool:

@@ -62,8 +62,8 @@ def sample(context: bpy.types.Context, obj: bpy.types.Object, action: bpy.types.
 
     A channel without keys or muted is as the armature's bone is held, else at rest; the file is as before.
     """
-    rate, times = frame_times(context.scene, action, _checked_curves(obj, action))
-    return sample_at(context, obj, action, rig, rate, times)
+    curves = _checked_curves(obj, action)
+    return _sample_curves(context, obj, action, rig, curves, *frame_times(context.scene, action, curves))
 
 
 def sample_at(
@@ -75,7 +75,18 @@ def sample_at(
     times: Doubles,
 ) -> Clip:
     """The Action at any of its frames, as a clip of so many samples a second; SinglePose where there is one alone."""
-    curves = _checked_curves(obj, action)
+    return _sample_curves(context, obj, action, rig, _checked_curves(obj, action), rate, times)
+
+
+def _sample_curves(
+    context: bpy.types.Context,
+    obj: bpy.types.Object,
+    action: bpy.types.Action,
+    rig: Rig,
+    curves: Curves,
+    rate: float,
+    times: Doubles,
+) -> Clip:
     place = f"Action '{action.name}'"
     if len(times) < _FEWEST_FRAMES:
         raise SinglePose(f"{place} holds a single pose (frame {times[0]:g}), no motion to learn from: untick it")
@@ -209,7 +220,8 @@ def read_curve(curve: bpy.types.FCurve, times: Doubles) -> Doubles:
     keys = curve.keyframe_points
     if len(keys) >= len(times) and not curve.modifiers:
         points = points_of(curve)
-        first = int(np.searchsorted(points[:, 0], times[0] - _SAME_FRAME))
+        spare = len(points) > len(times)
+        first = int(np.searchsorted(points[:, 0], times[0] - _SAME_FRAME)) if spare else 0
         near = points[first : first + len(times)]
         if len(near) == len(times) and np.abs(near[:, 0] - times).max() < _SAME_FRAME:
             return near[:, 1].astype(float)

@@ -4,7 +4,7 @@ to hang on the bone that it moves with."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 import bpy
@@ -36,7 +36,10 @@ def find_hanging(context: bpy.types.Context, obj: bpy.types.Object, actions: Seq
     rig = make_rig(obj)
     carrying, hips = carriers(obj, rig), bones[rig.skeleton.roles["hips"]]
     others = [bone for bone in bones if bone.name not in carrying]
-    candidates = [bone.name for bone in others if any(_is_moved(obj, action, bone, least) for action in actions)]
+    moved = set[str]()
+    for action in actions:
+        moved |= _moved(obj, action, (bone for bone in others if bone.name not in moved), least)
+    candidates = [bone.name for bone in others if bone.name in moved]
     found = _beside_body(obj, rig)
     ways = dict[str, float]()
     if candidates:
@@ -54,7 +57,7 @@ def find_hanging(context: bpy.types.Context, obj: bpy.types.Object, actions: Seq
 def moves_beside(obj: bpy.types.Object, rig: Rig, action: bpy.types.Action) -> bool:
     """Whether an Action moves bones against their parents that carry no body."""
     least, carrying = least_way(obj), carriers(obj, rig)
-    return any(_is_moved(obj, action, bone, least) for bone in obj.data.bones if bone.name not in carrying)
+    return bool(_moved(obj, action, [bone for bone in obj.data.bones if bone.name not in carrying], least))
 
 
 def least_way(obj: bpy.types.Object) -> float:
@@ -91,12 +94,11 @@ def _carries_no_other(obj: bpy.types.Object, above: str, hanging: Mapping[str, s
     return sum(child.name not in hanging for child in obj.data.bones[above].children) <= 1
 
 
-def _is_moved(obj: bpy.types.Object, action: bpy.types.Action, bone: bpy.types.Bone, least: float) -> bool:
-    """Whether an Action's keys move the bone against its parent by that much."""
-    if is_tied(bone):
-        return False
-    path = bone_path(bone.name, "location")
-    return any(_range(curve) > least for curve in versions.curves_of(action, obj) if curve.data_path == path)
+def _moved(obj: bpy.types.Object, action: bpy.types.Action, bones: Iterable[bpy.types.Bone], least: float) -> set[str]:
+    """Which of the bones an Action's keys move against their parents by that much."""
+    names = {bone_path(bone.name, "location"): bone.name for bone in bones if not is_tied(bone)}
+    curves = versions.curves_of(action, obj) if names else []
+    return {names[path] for curve in curves if (path := curve.data_path) in names and _range(curve) > least}
 
 
 def _range(curve: bpy.types.FCurve) -> float:
