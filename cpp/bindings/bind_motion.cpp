@@ -4,6 +4,7 @@
 #include "arrays.hpp"
 #include "base/ranges.hpp"
 #include "base/take_limits.hpp"
+#include "motion/bobbing.hpp"
 #include "motion/clip.hpp"
 #include "motion/cycle.hpp"
 #include "motion/discontinuities.hpp"
@@ -119,6 +120,11 @@ Clip with_markers(Clip clip, const Markers& markers) {
   }
   check_markers(clip.markers, clip.frames);
   return clip;
+}
+
+double too_far(const Skeleton& skeleton, const std::vector<Clip>& clips) {
+  for (const Clip& clip : clips) check_bones(clip, skeleton);
+  return bobs_too_far(Kinematics(skeleton), clips);
 }
 
 std::vector<Clip> mirrored(const Skeleton& skeleton, const std::vector<Clip>& clips) {
@@ -275,6 +281,7 @@ void bind_motion(py::module_& m) {
   bind_four_legs(m);
   bind_clip(m);
   m.def("mirrored", &mirrored, py::arg("skeleton"), py::arg("clips"), py::call_guard<GilRelease>());
+  m.def("bobs_too_far", &too_far, py::arg("skeleton"), py::arg("clips"), py::call_guard<GilRelease>());
   m.def("on_one_floor", &on_one_floor, py::arg("skeleton"), py::arg("clips"), py::call_guard<GilRelease>());
 }
 

@@ -312,6 +312,10 @@ def mirrored(skeleton: Skeleton, clips: Sequence[Clip]) -> list[Clip]:
     is told by the rest pose where that is symmetric, else by the clips' mean pose. ValueError where a clip has not the
     skeleton's number of bones."""
 
+def bobs_too_far(skeleton: Skeleton, clips: Sequence[Clip]) -> float:
+    """How many times too far up and down the hips go in the clips for what their legs do; 1 where that is not told, or
+    they go less than five times too far. ValueError where a clip has not the skeleton's number of bones."""
+
 def on_one_floor(skeleton: Skeleton, clips: Sequence[Clip]) -> list[Clip]:
     """The clips as a build learns them: level where the studio's floor rises, and moved up or down onto one floor.
     ValueError where a clip has not the skeleton's number of bones."""

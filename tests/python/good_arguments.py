@@ -194,6 +194,7 @@ def good_arguments(folder: Path) -> dict[str, dict[str, Any]]:
         "Clip.stands": {"self": walk, "skeleton": skeleton},
         "Clip.motions_within": {"self": walk, "skeleton": skeleton},
         "Clip.character_frames": {"self": walk, "skeleton": skeleton},
+        "bobs_too_far": {"skeleton": skeleton, "clips": clips[:1]},
         "mirrored": {"skeleton": skeleton, "clips": clips[:1]},
         "on_one_floor": {"skeleton": skeleton, "clips": clips[:1]},
         "Body": {

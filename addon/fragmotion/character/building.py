@@ -17,7 +17,7 @@ from ..files import read_regular
 from ..jobs import Report
 from ..mocap import actions
 from ..mocap.curve_points import read_once
-from ..mocap.doctor import say_lying, tell_ground, tell_size
+from ..mocap.doctor import say_bobbing, say_lying, tell_ground, tell_size
 from ..mocap.hands import hand_pose, with_hands
 from ..mocap.on_the_spot import lead_by_feet, say_untold
 from ..mocap.sampling import rig_as_posed, sample_parts
@@ -109,6 +109,7 @@ def gather(context: bpy.types.Context, obj: bpy.types.Object, settings: Any) -> 
         options,
         [
             *say_lying([clip for _, clip in styled], rig.skeleton),
+            *say_bobbing([clip for _, clip in styled], rig.skeleton),
             *found,
             *say_scaled(obj, takes),
             *say_feet(rig.skeleton),

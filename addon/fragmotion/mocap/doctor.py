@@ -30,6 +30,11 @@ _LIES = (
     "In none of the Actions the body stands: it lies, or its head is down, as where a file's upward axis is taken for "
     "another. Turn the armature, or what it hangs on, until it stands upright in the viewport, and Build again"
 )
+_BOBS = (
+    "The body goes {times:.0f} times as far up and down as its legs stretch and bend, as where a scale was applied "
+    "(Ctrl+A) after the Actions were made, which leaves their location keys as they were: import the file again "
+    "without that, or scale the location keys of '{hips}', and of what carries it, as the bones were"
+)
 WAIT = 0.1
 """Seconds between looks at a thread that is waited for."""
 
@@ -127,6 +132,12 @@ def tell_ground(action: bpy.types.Action, clips: Sequence[Clip], skeleton: Skele
 def say_lying(clips: Sequence[Clip], skeleton: Skeleton) -> list[str]:
     """That the body stands in none of these clips."""
     return [] if any(clip.stands(skeleton) for clip in clips) else [_LIES]
+
+
+def say_bobbing(clips: Sequence[Clip], skeleton: Skeleton) -> list[str]:
+    """That the body goes up and down many times as far as its legs have it."""
+    times = core.bobs_too_far(skeleton, clips)
+    return [_BOBS.format(times=times, hips=skeleton.roles["hips"])] if times > 1 else []
 
 
 def tell_anew(action: bpy.types.Action, code: str, severity: str, text: str, mendable: bool = False) -> None:

@@ -87,3 +87,22 @@ def test_build_says_that_the_body_lies(addon: ModuleType, turn: float, is_said: 
     bpy.context.view_layer.update()
     said = addon.character.building.gather(bpy.context, obj, obj.fragmotion.build).warnings
     assert any("In none of the Actions the body stands" in each for each in said) == is_said
+
+
+@pytest.mark.parametrize("times", (1, 100))
+def test_build_says_that_the_body_goes_too_far_up_and_down(addon: ModuleType, times: int) -> None:
+    """As where a scale was applied after the Actions were made."""
+    obj = making.open_sample()
+    for action in bpy.data.actions:
+        action.fragmotion.use = action.name in ("stand", "walk forward")
+        for curve in addon.compat.versions.curves_of(action, obj):
+            if curve.data_path == 'pose.bones["hips"].location':
+                for key in curve.keyframe_points:
+                    key.co.y *= times
+                curve.update()
+    said = addon.character.building.gather(bpy.context, obj, obj.fragmotion.build).warnings
+    told = [text for text in said if "times as far up and down" in text]
+    assert len(told) == (times > 1)
+    for text in told:
+        assert "'hips'" in text
+        assert times / 2 < float(text.split()[3]) < 2 * times, text
