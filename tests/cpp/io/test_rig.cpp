@@ -19,6 +19,21 @@ TEST(Rig, MakesTheSkeletonOfTheTreeWithTheHips) {
   EXPECT_EQ(rig.skeleton().roles.left_foot, 6);
 }
 
+// As a figure of blocks, each on a bone without a parent; names tell thighs.
+TEST(Rig, MakesTheSkeletonOfNoLimbThatHasATwinBesideTheBody) {
+  Armature armature;
+  armature.names = {"Body", "Arm.L", "Arm.R", "Leg.L", "Leg.R"};
+  armature.parents.assign(5, -1);
+  for (const Vector3& head :
+       {Vector3{0, 0, 1}, Vector3{0.4, 0, 1.5}, Vector3{-0.4, 0, 1.5}, Vector3{0.2, 0, 0.9}, Vector3{-0.2, 0, 0.9}})
+    append(compose(head, Quaternion::Identity()), armature.rest);
+  armature.lengths.assign(5, 0.4);
+  append(compose({0, 0, 0}, Quaternion::Identity()), armature.world);
+  EXPECT_EQ(Rig(armature).skeleton().names[0], "Body");
+  armature.roles = {{"hips", "Leg.L"}};
+  EXPECT_EQ(Rig(armature).skeleton().names[0], "Leg.L") << "as it is told";
+}
+
 TEST(Rig, RestsWhereTheArmatureDoesInMetres) {
   const Armature armature = random_armature(2);
   const Rig rig(armature);

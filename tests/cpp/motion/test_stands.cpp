@@ -25,6 +25,15 @@ TEST(Stands, WhoIsMoreUprightThanLevelInAnyFrame) {
   for (const double angle : {1.0, kPi / 2, kPi, -kPi / 2}) EXPECT_FALSE(stands(kKinematics, walk_turned(angle)));
 }
 
+// As blocky figures', whose legs begin beside what carries them.
+TEST(Stands, OnLegsOfASingleBone) {
+  Skeleton stiff = kSkeleton;
+  stiff.roles.left_foot = stiff.roles.left_thigh, stiff.roles.right_foot = stiff.roles.right_thigh;
+  stiff.roles.left_toe = stiff.roles.right_toe = -1;
+  EXPECT_TRUE(stands(Kinematics(stiff), walk_turned(0)));
+  EXPECT_FALSE(stands(Kinematics(stiff), walk_turned(kPi)));
+}
+
 TEST(Stands, ABodyWithoutFeet) {
   Skeleton footless = kSkeleton;
   footless.roles.left_foot = footless.roles.right_foot = -1;

@@ -6,12 +6,14 @@
 #include <cmath>
 #include <cstddef>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 
 #include "base/rounding.hpp"
 #include "base/take_limits.hpp"
 #include "io/rigid_matrix.hpp"
 #include "io/shown_feet.hpp"
+#include "skeleton/bone_names.hpp"
 #include "skeleton/legs_to_ground.hpp"
 #include "skeleton/likely_tips.hpp"
 #include "skeleton/role_names.hpp"
@@ -65,12 +67,12 @@ void align_rotations(int bones, Channels& channels) {
   }
 }
 
-/// How much a tree looks like the character: given roles first, then those that its names tell.
-int count_roles(const Armature& armature, const Skeleton& tree) {
-  int count = 0;
-  for (const auto& [role, bone] : armature.roles) count += tree.find(bone) >= 0 ? 1000 : 0;
+/// How much a tree looks like the character: how many of the roles that are given it has, and that its names tell.
+std::array<int, 2> count_roles(const Armature& armature, const Skeleton& tree) {
+  std::array<int, 2> count{};
+  for (const auto& [role, bone] : armature.roles) count[0] += tree.find(bone) >= 0 ? 1 : 0;
   const Roles found = find_roles(tree);
-  for (const auto& [name, member] : role_names()) count += found.*member >= 0 ? 1 : 0;
+  for (const auto& [name, member] : role_names()) count[1] += found.*member >= 0 ? 1 : 0;
   return count;
 }
 
@@ -178,18 +180,22 @@ Skeleton Rig::make_tree(int root, const std::vector<Rigid>& rest, std::vector<in
   return tree;
 }
 
-/// The tree with the most roles; the one with more bones, or else the first, of equals.
+/// The tree with the most roles, given ones first; the one with more bones, or else the first, of equals. A limb of two
+/// beside the body is none while there are others.
 Skeleton Rig::choose_tree(std::vector<int>& members) const {
   Skeleton best;
-  int best_roles = -1;
+  std::tuple best_of(-1, false, -1, -1);
+  const std::vector<BoneName> read = read_names(armature_.names);
   for (int root = 0; root < bones(); ++root) {
     if (armature_.parents[root] >= 0) continue;
     std::vector<int> tree_members;
     Skeleton tree = make_tree(root, rest_, tree_members);
-    const int roles = count_roles(armature_, tree);
-    if (std::pair(roles, tree.size()) <= std::pair(best_roles, best.size())) continue;
+    const auto [given, named] = count_roles(armature_, tree);
+    const int twin = read[root].counterpart;
+    const std::tuple of(given, twin < 0 || armature_.parents[twin] >= 0, named, tree.size());
+    if (of <= best_of) continue;
     best = std::move(tree);
-    best_roles = roles;
+    best_of = of;
     members = std::move(tree_members);
   }
   for (const auto& [role, bone] : armature_.roles) {
