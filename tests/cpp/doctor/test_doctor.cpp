@@ -182,6 +182,21 @@ TEST(Doctor, FindsAndFillsSpikes) {
   }
 }
 
+// As a foot of a drawn run that flicks in each stride; what broke comes when it comes.
+TEST(Doctor, LeavesWhatABoneDoesAgainInTheSameTime) {
+  for (const int last : {60, 63}) {
+    Take take = walk();
+    for (const int begin : {20, 40, last}) {
+      for (int f = begin; f < begin + 3; ++f) {
+        double* q = rotation(take, f, "upper_arm.R");
+        store_quaternion(Quaternion(Eigen::AngleAxisd(0.8, Vector3::UnitY())) * load_quaternion(q), q);
+      }
+    }
+    const std::vector<std::string> codes = codes_of(take);
+    EXPECT_EQ(std::count(codes.begin(), codes.end(), "spike"), last == 60 ? 0 : 3) << last;
+  }
+}
+
 TEST(Doctor, FindsAndFillsFlips) {
   const Take clean = walk();
   for (const Vector3& axis : {Vector3{1, 0, 0}, Vector3{0, 1, 0}, Vector3{0, 0, 1}}) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "doctor/check.hpp"
@@ -45,6 +46,28 @@ class Distances {
   double move_;
 };
 
+/// Without those of several frames that a bone does again and again in the same time, as a foot of a drawn run that
+/// flicks: no capture breaks so evenly.
+std::vector<Spike> without_drawn(const std::vector<Spike>& spikes) {
+  std::map<int, std::vector<int>> of_bones;
+  for (int i = 0; i < static_cast<int>(spikes.size()); ++i) {
+    if (spikes[i].run.length() > 1) of_bones[spikes[i].bone].push_back(i);
+  }
+  std::vector<char> is_drawn(spikes.size());
+  for (const auto& [bone, numbers] : of_bones) {
+    for (std::size_t k = 2; k < numbers.size(); ++k) {
+      const int a = numbers[k - 2], b = numbers[k - 1], c = numbers[k];
+      const int before = spikes[b].run.begin - spikes[a].run.begin, after = spikes[c].run.begin - spikes[b].run.begin;
+      if (before == after) is_drawn[a] = is_drawn[b] = is_drawn[c] = 1;
+    }
+  }
+  std::vector<Spike> rest;
+  for (std::size_t i = 0; i < spikes.size(); ++i) {
+    if (!is_drawn[i]) rest.push_back(spikes[i]);
+  }
+  return rest;
+}
+
 class SpikeFinder {
  public:
   explicit SpikeFinder(const Patient& patient)
@@ -63,7 +86,7 @@ class SpikeFinder {
         next_[b] = end + 1;
       }
     }
-    return spikes;
+    return without_drawn(spikes);
   }
 
  private:
