@@ -22,7 +22,7 @@ foreach(kind fast small)
   target_link_libraries(fragmotion_${kind} PRIVATE Eigen3::Eigen)
   target_compile_definitions(fragmotion_${kind} PRIVATE FRAGMOTION_BUILDS_SHARED EIGEN_MAX_ALIGN_BYTES=16 EIGEN_MPL2_ONLY)
   target_compile_options(fragmotion_${kind} PRIVATE -Wall -Wextra -Wpedantic -fno-rtti -ffunction-sections
-                         -fdata-sections $<$<CXX_COMPILER_ID:GNU>:-fno-gnu-unique>)
+                         -fdata-sections $<$<CXX_COMPILER_ID:GNU>:-fno-gnu-unique -fno-align-jumps>)
   set_target_properties(fragmotion_${kind} PROPERTIES VISIBILITY_INLINES_HIDDEN ON)
   compile_by_stage(fragmotion_${kind})
 endforeach()

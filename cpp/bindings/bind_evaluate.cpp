@@ -84,6 +84,7 @@ void bind_measures(py::module_& m) {
   py::class_<MotionMeasures>(m, "MotionMeasures", py::module_local())
       .def_readonly("foot_skate", &MotionMeasures::foot_skate)
       .def_readonly("sliding_share", &MotionMeasures::sliding_share)
+      .def_readonly("foot_turn", &MotionMeasures::foot_turn)
       .def_readonly("penetration", &MotionMeasures::penetration)
       .def_readonly("positions", &MotionMeasures::positions)
       .def_readonly("velocities", &MotionMeasures::velocities)

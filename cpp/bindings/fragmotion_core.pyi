@@ -1350,6 +1350,8 @@ class MotionMeasures:
     """Mean horizontal speed of balls and heels, weighted by 2 - 2^(height / 2.5 cm), m/s."""
     sliding_share: float
     """Share of the time with a point under 2.5 cm in which it goes faster than 0.1 m/s."""
+    foot_turn: float
+    """Mean rate at which feet turn on the ground, weighted by ball and heel likewise, rad/s."""
     penetration: float
     """The deepest that a point sinks under the ground, m."""
     positions: Steps

@@ -65,6 +65,9 @@ def test_run_time_is_the_players(run: Run, built: core.Character) -> None:
     assert figures["foot_skate_ratio"] == pytest.approx(
         np.mean([m.foot_skate for m in measured]) / yardstick.takes.foot_skate
     )
+    assert figures["foot_turn_ratio"] == pytest.approx(
+        np.mean([m.foot_turn for m in measured]) / yardstick.takes.foot_turn
+    )
     assert figures["joint_step_ratio"] > 0
     assert 0 <= figures["sliding_contact_share"] <= 1
     assert figures["beyond_limits_share"] == pytest.approx(np.mean([m.turns.share for m in measured]))

@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <memory>
+#include <string>
 
 #include "build/build.hpp"
 #include "character/character.hpp"
@@ -34,12 +36,16 @@ TEST(Build, LearnsFromATraceOfOneControl) {
   BuildOptions options = few_classes();
   options.policies = policy_names();
   const Control forward{0, 1.2, 0, 0};
-  const auto c = std::make_shared<const Character>(build(humanoid(), some_takes(), {Trace(50, forward)}, options));
-  for (const std::string& policy : policy_names()) {
-    const double percent = percent_of_optimal(c->quality, c->policy(policy), snap(c->space, Trace(50, forward)));
-    EXPECT_GT(percent, 80) << policy;
-    EXPECT_LE(percent, 100 + 1e-9) << policy;
+  std::map<std::string, double> mean;
+  for (options.seed = 1; options.seed <= 4; ++options.seed) {
+    const auto c = std::make_shared<const Character>(build(humanoid(), some_takes(), {Trace(50, forward)}, options));
+    for (const std::string& policy : policy_names()) {
+      const double percent = percent_of_optimal(c->quality, c->policy(policy), snap(c->space, Trace(50, forward)));
+      EXPECT_LE(percent, 100 + 1e-9) << policy;
+      mean[policy] += percent / 4;
+    }
   }
+  for (const std::string& policy : policy_names()) EXPECT_GT(mean[policy], 80) << policy;
 }
 
 TEST(Build, StandsWhereTheTakesCanDoNothingElse) {

@@ -3,6 +3,7 @@
 
 #include "control/simulated_players.hpp"
 #include "evaluate/motion_metrics.hpp"
+#include "motion/trunk.hpp"
 #include "runtime/player.hpp"
 #include "small_character.hpp"
 
@@ -50,6 +51,19 @@ TEST(MotionMetrics, SeesFeetThatSlide) {
   EXPECT_LT(yardstick.takes().dragged_share, fast.dragged_share / 2);  // they repeat: rounding tells the lowest
   EXPECT_NEAR(fast.positions.worst, scale / 60, 1e-6);
   EXPECT_NEAR(fast.velocities.worst, 0, 1e-6);
+}
+
+TEST(MotionMetrics, SeesFeetThatTurnOnTheFloor) {
+  const auto character = gait_character();
+  const MotionMetrics yardstick(*character);
+  Performance turning = carried(gait_clip({0, 0, 0}), 0);
+  const int hips = character->pool.skeleton.roles.hips, bones = character->pool.skeleton.size();
+  EXPECT_EQ(yardstick.of(turning).foot_turn, 0);
+  for (int f = 0; f < turning.frames; ++f) {
+    turn_bone(character->pool.skeleton, hips, Vector3::UnitZ(), 0.8 * f / turning.rate,
+              turning.rotations.data() + std::ptrdiff_t{4} * bones * f);
+  }
+  EXPECT_NEAR(yardstick.of(turning).foot_turn, 0.8, 1e-6);
 }
 
 TEST(MotionMetrics, SeesThatFeetInTheAirDoNotSlideAndThatSunkenOnesPenetrate) {

@@ -5,6 +5,7 @@
 #include "feet/foot_lock.hpp"
 #include "feet/standing_leg.hpp"
 #include "motion/legs.hpp"
+#include "motion/trunk.hpp"
 #include "walker.hpp"
 
 namespace fragmotion {
@@ -51,6 +52,69 @@ TEST(FootLock, KeepsAPlantedFootWhereItIs) {
   for (int f = 1; f < 30; ++f) EXPECT_LT((body.shown(f, true) - place).head<2>().norm(), 5e-3) << f;
   EXPECT_TRUE(body.lock.locked(0));
   EXPECT_FALSE(body.lock.locked(1));
+}
+
+// A standing body that turns over its left foot, planted for a while, and then swings it.
+struct Turning : Carried {
+  double rate = 1;  // rad/s
+
+  // How far the left foot is turned from how it stood at first, rad, and then its thigh.
+  std::array<double, 2> turned(int frame, bool planted, const Footwork& work = {}, bool both = false) {
+    WorldPose pose{load_vector(clip.root_positions.data()), clip.headings[0] + rate * frame * kFrame, {}};
+    pose.rotations.assign(clip.rotations.begin(), clip.rotations.begin() + std::ptrdiff_t{4} * skeleton.size());
+    turn_bone(skeleton, skeleton.roles.hips, Vector3::UnitZ(), rate * frame * kFrame, pose.rotations.data());
+    lock.apply(pose, standing(planted, both), {}, frame == 0 ? 0 : kFrame, {}, work);
+    PosedBones posed(skeleton.size());
+    kinematics.world(pose.root, pose.rotations.data(), posed.heads.data(), posed.rotations.data());
+    const auto faces = [&](int bone) {
+      const Vector3 left = posed.rotations[bone] * Vector3::UnitX();
+      return std::atan2(left.y(), left.x());
+    };
+    if (frame == 0) first_ = {faces(legs[0].foot), faces(legs[0].thigh)};
+    return {wrapped(faces(legs[0].foot) - first_[0]), wrapped(faces(legs[0].thigh) - first_[1])};
+  }
+
+ private:
+  std::array<double, 2> first_{};
+};
+
+TEST(FootLock, LetsNoPlantedFootTurnOnTheFloorWithTheBodyAsFarAsItsHipTurns) {
+  Turning body;
+  const int most = static_cast<int>(kTurnsInHip / kFrame);
+  for (int f = 0; f <= most; ++f) {
+    const auto [foot, thigh] = body.turned(f, true);
+    EXPECT_NEAR(foot, 0, 0.03) << f;  // its first frame tells how it stands
+    EXPECT_NEAR(thigh, 0, 0.2) << f;  // and the knee stays over the foot
+  }
+  EXPECT_NEAR(body.turned(most + 1, true)[0], 0.02, 0.02);
+  for (int f = most + 2; f < most + 30; ++f) body.turned(f, true);
+  EXPECT_NEAR(body.turned(most + 30, true)[0], 30 * kFrame, 0.05);
+}
+
+TEST(FootLock, SetsAFootAheadByHalfOfWhatTheBodyTurnsOverIt) {
+  Turning body;
+  Footwork work;
+  work.turn = body.rate;
+  for (int f = 0; f < 30; ++f) body.turned(f, true, work);
+  double before = body.turned(30, false, work)[0], fastest = 0;
+  for (int f = 31; f < 90; ++f) {
+    const double now = body.turned(f, false, work)[0];
+    fastest = std::max(fastest, std::abs(now - before) / kFrame);
+    before = now;
+  }
+  EXPECT_NEAR(before, 89 * kFrame + 0.25, 0.02);
+  EXPECT_LT(fastest, 5);  // a step turns it by 0.75 rad, smoothly
+}
+
+TEST(FootLock, StepsOutOfATurnThatItStandsIn) {
+  Turning body;
+  for (int f = 0; f < 30; ++f) body.turned(f, true, {}, true);
+  double turned = 0;
+  for (int f = 30; f < 90; ++f) {
+    body.rate = 30.0 / f;  // it turns no more
+    turned = body.turned(f, true, {}, true)[0];
+  }
+  EXPECT_NEAR(turned, 30 * kFrame, 0.07);  // that of the release is left when it is planted again
 }
 
 TEST(FootLock, KeepsTheEndOfALegWithoutAFootWhereItIs) {
@@ -274,9 +338,9 @@ double lifted(bool on_ground, double clears) {
     Contacts contacts = standing(false);
     contacts.floors = find_contacts(body.kinematics, body.clip).floors;
     const double before = place();
-    StepEdit edit;
-    edit.clears = clears;
-    body.lock.apply(pose, contacts, {}, f == 0 ? 0 : kFrame, edit);
+    Footwork work;
+    work.clears = clears;
+    body.lock.apply(pose, contacts, {}, f == 0 ? 0 : kFrame, {}, work);
     height = (place() - before) * standard_scale(body.skeleton);
   }
   return height;

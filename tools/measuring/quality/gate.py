@@ -41,6 +41,7 @@ WORSE: Mapping[str, Better] = {
     "drift_heading": LESS,
     "about_face_s": LESS,
     "foot_skate_ratio": LESS,
+    "foot_turn_ratio": LESS,
     "sliding_contact_share": LESS,
     "joint_step_ratio": LESS,
     "beyond_limits_share": LESS,

@@ -109,6 +109,7 @@ _RUN_TIME: tuple[tuple[str, Callable[[Result], str]], ...] = (
     ("response p95, s", lambda r: number(r["response_p95_s"], 2)),
     ("no response, %", lambda r: number(_percent(r["no_response_share"]))),
     ("foot skate, x takes'", lambda r: number(r["foot_skate_ratio"], 2)),
+    ("feet's turns, x takes'", lambda r: number(r["foot_turn_ratio"], 2)),
     ("joint step, x takes'", lambda r: number(r["joint_step_ratio"], 2)),
     ("sliding, %", lambda r: number(_percent(r["sliding_contact_share"]))),
     ("drift, %", lambda r: number(r["drift_percent"])),

@@ -47,6 +47,7 @@ class Measurement {
     for (int side = 0; side < track.feet.count(); ++side) {
       add_point(track.feet[side].ball, track.floors[side].ball, track.rate);
       add_point(track.feet[side].heel, track.floors[side].heel, track.rate);
+      add_turns(track.feet[side], track.floors[side], track.rate);
     }
     for (int f = 3; f < track.frames(); ++f) {
       if (joints.judged[f]) add_steps(joints, f, track.rate);
@@ -63,6 +64,7 @@ class Measurement {
     MotionMeasures m;
     m.foot_skate = count_ > 0 ? skate_ / count_ : 0;
     m.sliding_share = low_ > 0 ? sliding_ / low_ : 0;
+    m.foot_turn = stood_ > 0 ? turned_ / stood_ : 0;
     m.penetration = depth_;
     m.positions = steps(positions_);
     m.velocities = steps(velocities_);
@@ -91,6 +93,19 @@ class Measurement {
       depth_ = std::max(depth_, -height);
       if (height < kSkateHeight) ++low_;
       if (height < kSkateHeight && speed > kSliding) ++sliding_;
+    }
+  }
+
+  // Of a foot whose ball and heel both stand.
+  void add_turns(const FootPath& foot, const FootHeights& floor, double rate) {
+    const auto faces = [&](std::size_t f) {
+      const Vector3 way = foot.ball[f] - foot.heel[f];
+      return std::atan2(way.y(), way.x());
+    };
+    for (std::size_t f = 1; f < foot.ball.size(); ++f) {
+      const double weight = skate_weight(foot.ball[f].z() - floor.ball) * skate_weight(foot.heel[f].z() - floor.heel);
+      turned_ += weight * rate * std::abs(wrapped(faces(f) - faces(f - 1)));
+      stood_ += weight;
     }
   }
 
@@ -127,7 +142,7 @@ class Measurement {
 
   UsualHeights usual_;
   const FootClearance& clearance_;
-  double skate_ = 0, count_ = 0, low_ = 0, sliding_ = 0, depth_ = 0;
+  double skate_ = 0, count_ = 0, low_ = 0, sliding_ = 0, depth_ = 0, turned_ = 0, stood_ = 0;
   std::vector<double> positions_, velocities_, accelerations_, center_pushes_, hips_pushes_, yaw_;
   std::vector<Jump> jumps_;
   Footfalls footfalls_;

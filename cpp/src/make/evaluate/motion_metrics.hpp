@@ -28,6 +28,7 @@ struct JumpMeans {
 struct MotionMeasures {
   double foot_skate = 0;     ///< Mean horizontal speed of balls and heels, weighted by 2 - 2^(height / 2.5 cm), m/s.
   double sliding_share = 0;  ///< Share of the time with a point under 2.5 cm in which it goes faster than 0.1 m/s.
+  double foot_turn = 0;      ///< Mean rate at which feet turn on the ground, weighted by ball and heel likewise, rad/s.
   double penetration = 0;    ///< The deepest that a point sinks under the ground, m.
   Steps positions;           ///< m
   Steps velocities;          ///< m/s

@@ -23,9 +23,11 @@ constexpr double kArmsForward = 0.6, kArmsBack = 0.3;
 // Keeps planted feet of a clip where they are. Its frames go round and round frames begin .. end of another clip, whose
 // contacts these are.
 void plant_feet(const Kinematics& kinematics, const Legs& legs, Clip& clip, const Contacts& contacts, int begin,
-                int end) {
+                int end, double turn) {
   if (contacts.feet[0].empty()) return;
   FootLock lock(kinematics, legs);
+  Footwork work;
+  work.turn = turn;
   WorldPose pose;
   pose.rotations.resize(std::size_t{4} * kinematics.bones());
   for (int f = 0; f < clip.frames; ++f) {
@@ -34,7 +36,7 @@ void plant_feet(const Kinematics& kinematics, const Legs& legs, Clip& clip, cons
     pose.heading = clip.headings[f];
     std::copy_n(rotations, pose.rotations.size(), pose.rotations.begin());
     const std::size_t frame = frame_of(f, begin, end);
-    lock.apply(pose, contacts, {frame, frame, frame}, f > 0 ? 1 / clip.rate : 0);
+    lock.apply(pose, contacts, {frame, frame, frame}, f > 0 ? 1 / clip.rate : 0, {}, work);
     store_vector(pose.root, root);
     std::copy(pose.rotations.begin(), pose.rotations.end(), rotations);
   }
@@ -79,7 +81,7 @@ Clip transformed(const Kinematics& kinematics, const Legs& legs, const Clip& cli
   }
   result.markers = markers_in_rounds(clip.markers, begin, length, result.frames);
   if (!plants) return result;
-  plant_feet(kinematics, legs, result, contacts, begin, end);
+  plant_feet(kinematics, legs, result, contacts, begin, end, edit.turn);
   return part(result, before, result.frames - 1);
 }
 

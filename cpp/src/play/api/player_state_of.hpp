@@ -120,13 +120,16 @@ void PlayerState::exchange(Archive& a, FootLock& lock) {
   for (FootLock::Foot& foot : lock.feet_) {
     a.number(foot.locked, 0, 1);
     a.number(foot.steps, 0, 1);
-    for (Vector2* place : {&foot.moved, &foot.shown, &foot.place, &foot.offset}) vector(a, *place, kMostPlace);
-    for (Vector2* speed : {&foot.speed, &foot.drift, &foot.offset_speed}) vector(a, *speed, kMostPlace);
+    for (Vector2* place : {&foot.moved, &foot.shown, &foot.held}) vector(a, *place, kMostPlace);
+    for (Vector2* speed : {&foot.speed, &foot.drift}) vector(a, *speed, kMostPlace);
     a.number(foot.height, -kMostPlace, kMostPlace);
     a.number(foot.holds, 0, 1);
     a.number(foot.free, 0, kMostPlace);
     a.number(foot.lowered, -kMostPlace, kMostPlace);
     a.number(foot.raised, -kPi, kPi);
+    for (double* angle : {&foot.faces, &foot.turn}) a.number(*angle, -kPi, kPi);
+    a.number(foot.turn_speed, -kMostSpeed, kMostSpeed);
+    a.number(foot.stood, 0, kMostPlace);
   }
   a.number(lock.fresh_, 0, 1);
   a.number(lock.stood_, 0, kMostPlace);

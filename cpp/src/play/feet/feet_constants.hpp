@@ -16,6 +16,9 @@ struct FeetConstants {
   double step = 0.04;     ///< m: how high it steps.
   double hovers = 0.015;  ///< m over the floor, from where a planted foot is lowered.
   double ahead = 0.15;    ///< Of what balances an acceleration: so far behind or ahead of the hips feet are set for it.
+
+  /// 1/s: of a foot that is let go, which is critically damped.
+  double returns() const { return 3.5 / release; }
 };
 
 }  // namespace fragmotion

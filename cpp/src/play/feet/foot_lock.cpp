@@ -48,6 +48,7 @@ void FootLock::Body::Filters::set(double time, const FeetConstants& constants) {
   rests = std::exp(-seconds / constants.rests);
   settles = filtered(seconds, kSettles);
   sinks = filtered(seconds, constants.sinks);
+  returns = std::exp(-constants.returns() * seconds);
 }
 
 FootLock::FootLock(const Kinematics& kinematics, const Legs& legs)
@@ -67,24 +68,29 @@ void FootLock::reset() {
 
 void FootLock::lock(Foot& foot, const Vector2& shown, double seconds) const {
   foot.locked = true;
-  foot.place = fresh_ ? shown : foot.shown;
+  foot.stood = 0;
+  foot.held = fresh_ ? shown : foot.shown;
   foot.drift = seconds > 0 && !fresh_ ? Vector2{(shown - foot.shown) / seconds - (1 - foot.holds) * foot.speed}
                                       : Vector2::Zero();
 }
 
-bool FootLock::all_locked() const {
-  return std::all_of(feet_.begin(), feet_.end(), [](const Foot& foot) { return foot.locked; });
+void FootLock::settle(bool settles, double seconds) {
+  const auto free = std::count_if(feet_.begin(), feet_.end(), [](const Foot& foot) { return !foot.locked; });
+  stood_ = settles && free == 0 ? stood_ + seconds : 0;
+  if (stood_ >= body_->constants.release) step_out();
 }
 
-// A body that has come to stand does not stay in the middle of a stride.
-void FootLock::settle(bool settles, double seconds) {
-  stood_ = settles && all_locked() ? stood_ + seconds : 0;
-  if (stood_ < body_->constants.release) return;
-  const auto astray = [&](const Foot& foot) { return (foot.place - foot.moved).norm() * body_->scale; };
+// A body that has come to stand does not stay in the middle of a stride or a turn.
+[[gnu::cold]] void FootLock::step_out() {
+  const double turned = body_->constants.astray / (kTurnsInHip / 2);  // so far is one whose hip is turned half way
+  const auto astray = [&](const Foot& foot) {
+    return (foot.held - foot.moved).norm() * body_->scale + turned * std::abs(foot.turn);
+  };
   Foot& foot = *std::max_element(feet_.begin(), feet_.end(),
                                  [&](const Foot& a, const Foot& b) { return astray(a) < astray(b); });
   if (astray(foot) < body_->constants.astray) return;
-  release(foot, foot.place - foot.moved);
+  release(foot, foot.held - foot.moved);
+  foot.steps = true;
 }
 
 Vector2 FootLock::coming_to_rest(int side) const {
@@ -126,16 +132,16 @@ void FootLock::raise_heel(int side, const Vector3& ball, double longest, Vector3
   const double lacks = foot.locked ? rise_to_reach(hip, from_ball, longest) : 0;
   foot.raised += body_->filters.settles * (std::min(lacks, kHighestHeel) - foot.raised);
   if (foot.raised < kFloatRounding) return;
-  const Quaternion turn{Eigen::AngleAxisd(foot.raised, heel_axis(from_ball))};
+  const Quaternion turn = heel_turn(foot.raised, from_ball);
   ankle = ball + turned(turn, from_ball);
   turn_foot(body_->kinematics.skeleton(), leg, turn, Quaternion::Identity(), posed, rotations);
 }
 
-void FootLock::release(Foot& foot, const Vector2& held) const {
+[[gnu::noinline]] void FootLock::release(Foot& foot, const Vector2& away) const {
   foot.locked = false;
-  foot.steps = held.norm() * body_->scale > body_->constants.astray;
-  foot.offset = held;
-  foot.offset_speed = foot.drift - foot.holds * foot.speed;
+  foot.steps = away.norm() * body_->scale > body_->constants.astray;
+  foot.held = away;
+  foot.drift -= foot.holds * foot.speed;
   foot.free = 0;
 }
 
@@ -147,18 +153,18 @@ Vector2 FootLock::away(int side, const Vector2& moved, bool planted, double seco
   foot.moved = moved;
   foot.free += seconds;
   Vector2 away = Vector2::Zero();
-  if (foot.free < kUnseen * constants.release) {
-    const Vector2 rate = foot.offset_speed + body_->returns() * foot.offset;
-    away = std::exp(-body_->returns() * foot.free) * (foot.offset + foot.free * rate);
+  if (!foot.locked && foot.free < kUnseen * constants.release) {
+    const Vector2 rate = foot.drift + constants.returns() * foot.held;
+    away = std::exp(-constants.returns() * foot.free) * (foot.held + foot.free * rate);
   }
   const bool stepping = foot.steps && foot.free < constants.release;
   const double too_far = foot.locked && feet_[other(side)].locked ? constants.too_far : constants.alone;
   if (planted && !foot.locked && !stepping && away.norm() * body_->scale < constants.too_far)
     lock(foot, moved + away, seconds);
   if (foot.locked) {
-    foot.place += (1 - foot.holds) * seconds * foot.speed + constants.rests * (1 - body_->filters.rests) * foot.drift;
+    foot.held += (1 - foot.holds) * seconds * foot.speed + constants.rests * (1 - body_->filters.rests) * foot.drift;
     foot.drift *= body_->filters.rests;
-    away = foot.place - moved;
+    away = foot.held - moved;
     if (!planted || away.norm() * body_->scale > too_far) release(foot, away);
   }
   foot.shown = moved + away;
@@ -174,6 +180,28 @@ double FootLock::holds(int side, const Contacts& contacts, const Frames& frames,
   return contacts.stands(side, frames.before) ? 1 : skate_weight(height * body_->scale);
 }
 
+// The leg turns in its hip while the body turns over a planted foot.
+void FootLock::hold_turn(int side, double seconds) {
+  Foot& foot = feet_[side];
+  const Leg& leg = body_->legs[side];
+  const Vector3 across = turned(body_->posed.rotations[leg.foot], leg.across);
+  const double faces = std::atan2(across.y(), across.x()), before = foot.stood > 0 ? foot.faces : faces;
+  const double by = foot.holds * wrapped(faces - before);
+  foot.turn = std::clamp(foot.turn - by, -kTurnsInHip, kTurnsInHip);
+  foot.turn_speed = seconds > 0 ? -by / seconds : 0;
+  foot.faces = faces;
+  foot.stood += seconds;
+}
+
+// A foot that swings gets to where it is turned to the one side as far as it will be to the other.
+void FootLock::return_turn(int side, double rate, double seconds) {
+  Foot& foot = feet_[side];
+  const double ahead = std::clamp(rate * std::min(foot.stood, kLookedAhead) / 2, -kTurnsInHip, kTurnsInHip);
+  const double returns = body_->constants.returns(), off = foot.turn - ahead, speed = foot.turn_speed + returns * off;
+  foot.turn = ahead + body_->filters.returns * (off + seconds * speed);
+  foot.turn_speed = body_->filters.returns * (foot.turn_speed - returns * seconds * speed);
+}
+
 // What a foot's steps are seen from: the hips, or the middle between the fore legs.
 Vector3 FootLock::under(int side, const WorldPose& pose) const {
   if (side < 2) return pose.root;
@@ -181,7 +209,7 @@ Vector3 FootLock::under(int side, const WorldPose& pose) const {
 }
 
 void FootLock::apply(WorldPose& pose, const Contacts& contacts, const Frames& frames, double seconds,
-                     const StepEdit& edit) {
+                     const StepEdit& edit, const Footwork& work) {
   auto& [constants, kinematics, legs, scale, leg_bones, bones, posed, filters] = *body_;
   const int count = legs.count();
   if (count == 0) return;
@@ -192,7 +220,7 @@ void FootLock::apply(WorldPose& pose, const Contacts& contacts, const Frames& fr
   const Vector2 shift = heading * edit.shift;
   std::array<Vector3, kMostLegs> ankles;
   double strained = 0;
-  settle(edit.settles, seconds);
+  settle(work.settles, seconds);
   for (int side = 0; side < count; ++side) {
     const Vector3 place = ball(skeleton, legs[side], posed), ankle = ankle_of(legs[side], posed);
     const FootHeights& floor = contacts.floors[side];
@@ -207,14 +235,21 @@ void FootLock::apply(WorldPose& pose, const Contacts& contacts, const Frames& fr
     const Vector2 before = feet_[side].shown, held = away(side, place.head<2>() + edited, stands, seconds),
                   by = edited + held;
     const double speed = fresh_ || seconds == 0 ? 0 : (feet_[side].shown - before).norm() / seconds;
-    const double hovers = this->hovers(feet_[side], over, height, edit.clears * clear_at(speed * scale) / scale);
+    const double hovers = this->hovers(feet_[side], over, height, work.clears * clear_at(speed * scale) / scale);
     const double lift =
         softly_over(-over, kSoftGround / scale) + step_height(feet_[side]) - lowered(feet_[side], over, hovers);
     const Vector3 moved{by.x(), by.y(), lift};
+    if (feet_[side].locked)
+      hold_turn(side, seconds);
+    else
+      return_turn(side, work.turn, seconds);
+    const PlaneTurn half(feet_[side].turn / 2);
     ankles[side] = ankle + moved;
+    ankles[side].head<2>() += half.twice() * Vector2{(ankle - place).head<2>()} - (ankle - place).head<2>();
+    turn_leg(legs[side], leg_bones[side], half, posed);
     const double most = longest(legs[side], posed);
     raise_heel(side, place + moved, most, ankles[side], pose.rotations.data());
-    if (by.isZero(kRounding) && lift == 0) continue;
+    if (by.isZero(kRounding) && lift == 0 && feet_[side].turn == 0) continue;
     const double strain = std::max(0.0, too_high(most, posed.heads[legs[side].thigh], ankles[side]));
     if (feet_[side].locked && strain * scale > constants.strained) release(feet_[side], held);
     strained = std::max(strained, std::min(constants.strained / scale, strain));

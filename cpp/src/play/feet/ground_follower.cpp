@@ -22,7 +22,7 @@ Quaternion turned_by(const Vector2& slope) {
 
 }  // namespace
 
-void GroundFollower::reset() {
+[[gnu::cold]] void GroundFollower::reset() {
   feet_ = {};
   hips_ = {};
   fresh_ = appears_ = true;
@@ -165,7 +165,7 @@ void GroundFollower::raise_heel(int side, Vector3& ankle) {
                 ball = ankle - from_ball;
   const double most = kHighestHeel * exact_ * feet_[side].weight(),
                lacks = rise_to_reach(posed.heads[leg.thigh] - ball, from_ball, kHipsReach * leg_length(leg, posed));
-  heels_[side] = Eigen::AngleAxisd(std::min(lacks, most), heel_axis(from_ball));
+  heels_[side] = heel_turn(std::min(lacks, most), from_ball);
   ankle = ball + heels_[side] * from_ball;
 }
 

@@ -47,7 +47,7 @@ class LookAhead {
     const Vector2 held = (foot.now.ball - later(side, 0).ball).head<2>();
     for (std::size_t i = 0; i < FootAhead::kPoints; ++i) {
       const double seconds = foot.due * static_cast<double>(i + 1) / FootAhead::kPoints;
-      const double returned = body_.returns() * seconds;
+      const double returned = body_.constants.returns() * seconds;
       foot.way[i] = later(side, seconds).moved((1 + returned) * std::exp(-returned) * held);
     }
     const PosedBones& posed = body_.posed;

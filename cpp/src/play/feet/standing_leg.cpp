@@ -5,6 +5,12 @@
 #include <cmath>
 
 namespace fragmotion {
+namespace {
+
+// About which a heel rises.
+Vector3 heel_axis(const Vector3& from_ball) { return from_ball.cross(Vector3::UnitZ()).normalized(); }
+
+}  // namespace
 
 double softly_over(double over, double soft) {
   if (over < 0) return 0;
@@ -16,7 +22,9 @@ double too_high(double length, const Vector3& hip, const Vector3& ankle) {
   return -way.z() - std::sqrt(std::max(0.0, length * length - way.head<2>().squaredNorm()));
 }
 
-Vector3 heel_axis(const Vector3& from_ball) { return from_ball.cross(Vector3::UnitZ()).normalized(); }
+[[gnu::cold]] Quaternion heel_turn(double angle, const Vector3& from_ball) {
+  return Quaternion{Eigen::AngleAxisd(angle, heel_axis(from_ball))};
+}
 
 double rise_to_reach(const Vector3& hip, const Vector3& from_ball, double length) {
   const double along = -dot(hip, from_ball),
@@ -25,6 +33,19 @@ double rise_to_reach(const Vector3& hip, const Vector3& from_ball, double length
   const double across = -dot(hip, heel_axis(from_ball).cross(from_ball));
   if (across >= 0) return 0;
   return std::atan2(across, along) + std::acos(std::max(-1.0, wanted / std::hypot(along, across)));
+}
+
+void turn_leg(const Leg& leg, const std::vector<int>& bones, const PlaneTurn& half, PosedBones& posed) {
+  const auto [c, s] = half;
+  const PlaneTurn turn = half.twice();
+  const Vector2 hip = posed.heads[leg.thigh].head<2>();
+  for (const int bone : bones) {
+    if (bone < leg.thigh) continue;
+    const Vector2 from_hip = posed.heads[bone].head<2>() - hip;
+    posed.heads[bone].head<2>() = hip + turn * from_hip;
+    Quaternion& q = posed.rotations[bone];
+    q = {c * q.w() - s * q.z(), c * q.x() - s * q.y(), c * q.y() + s * q.x(), c * q.z() + s * q.w()};
+  }
 }
 
 void turn_foot(const Skeleton& skeleton, const Leg& leg, const Quaternion& foot, const Quaternion& toe,

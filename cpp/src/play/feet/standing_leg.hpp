@@ -20,12 +20,19 @@ double softly_over(double over, double soft);
 /// might be higher. One further aside than the leg is long is reached from no height: that of the ankle counts.
 double too_high(double length, const Vector3& hip, const Vector3& ankle);
 
-/// The axis about which a heel rises whose ankle is `from_ball`.
-Vector3 heel_axis(const Vector3& from_ball);
+/// How a foot is turned whose heel rises by an angle about the ball, its ankle now `from_ball`.
+Quaternion heel_turn(double angle, const Vector3& from_ball);
 
 /// The least angle, rad, by which a heel must rise about the ball for its ankle, now `from_ball`, to come within
 /// `length` of a hip that is `hip` from the ball; 0 where that brings it no nearer.
 double rise_to_reach(const Vector3& hip, const Vector3& from_ball, double length);
+
+/// rad that a hip turns a leg inward, and about as far outward: 33 degrees (A. Roaas and G. Andersson, "Normal range of
+/// motion of the hip, knee and ankle joints in male subjects", Acta Orthopaedica Scandinavica 53, 1982).
+constexpr double kTurnsInHip = 33 * kPi / 180;
+
+/// Turns a leg in its hip about the vertical, by twice this; of its `bones` those above the thigh stay.
+void turn_leg(const Leg& leg, const std::vector<int>& bones, const PlaneTurn& half, PosedBones& posed);
 
 /// Turns a foot in the world, and its toe by `toe` alone: the foot's rotation in `posed`, which reach() keeps, and the
 /// toe's in the local `rotations` [bones, 4].

@@ -32,14 +32,15 @@ void PoseCorrection::correct(const Playback& playback, const RootGovernor& gover
   const Skeleton& skeleton = workspace_->kinematics.skeleton();
   const Vector2 acceleration = edit_steps_ ? governor.acceleration() : Vector2::Zero();
   lean_.apply(skeleton, workspace_->shown, acceleration, playback.facing(), workspace_->follows(seconds));
-  if (edit_steps_) edit_steps(playback.evident_of_hips(), governor, seconds);
-  if (lock_feet_) lock_feet(playback, even, seconds);
+  Footwork work;
+  if (edit_steps_) work = edit_steps(playback.evident_of_hips(), governor, seconds);
+  if (lock_feet_) lock_feet(playback, even, seconds, work);
 }
 
 // A foot that stands goes back under the hips as fast as the fragment goes forward; by what the root makes that faster
 // or slower its place from the hips, which grows with the same time, must change. And the feet of a body that is
 // accelerated are set where their push goes through it: behind one that gets faster, ahead of one that brakes.
-void PoseCorrection::edit_steps(const Control& evident, const RootGovernor& governor, double seconds) {
+Footwork PoseCorrection::edit_steps(const Control& evident, const RootGovernor& governor, double seconds) {
   const Vector2 velocity{evident.x, evident.y};
   const bool goes = evident.speed() * scale_ > kMoving;
   const Vector2 longer = governor.velocity() + (governor.pace() - governor.tempo()) * velocity;
@@ -53,16 +54,15 @@ void PoseCorrection::edit_steps(const Control& evident, const RootGovernor& gove
       -workspace_->constants.feet.ahead * workspace_->shown.root.z() / kGravity * lean_.acceleration();
   steps_.shift += strode * (behind - steps_.shift);
   const double pushes = scale_ * governor.acceleration().norm() / workspace_->constants.root.acceleration;
-  steps_.settles = !governor.rests();
-  steps_.clears = goes ? std::min(1.0, pushes) : 0;
+  return {governor.turn_rate(), goes ? std::min(1.0, pushes) : 0, !governor.rests()};
 }
 
-void PoseCorrection::lock_feet(const Playback& playback, bool even, double seconds) {
+void PoseCorrection::lock_feet(const Playback& playback, bool even, double seconds, const Footwork& work) {
   const Contacts& contacts = playback.contacts();
   if (contacts.feet[0].empty()) return;
   const double loading = even ? kLoading : 0;
   const auto frame = [&](double later) { return playback.frame_of_clip(playback.seconds() + later); };
-  foot_lock_.apply(workspace_->shown, contacts, {frame(0), frame(-loading), frame(loading)}, seconds, steps_);
+  foot_lock_.apply(workspace_->shown, contacts, {frame(0), frame(-loading), frame(loading)}, seconds, steps_, work);
 }
 
 }  // namespace fragmotion

@@ -31,8 +31,8 @@ class PoseCorrection {
  private:
   friend struct PlayerState;
 
-  void edit_steps(const Control& evident, const RootGovernor& governor, double seconds);
-  void lock_feet(const Playback& playback, bool even, double seconds);
+  Footwork edit_steps(const Control& evident, const RootGovernor& governor, double seconds);
+  void lock_feet(const Playback& playback, bool even, double seconds, const Footwork& work);
 
   Workspace* workspace_;
   double scale_;

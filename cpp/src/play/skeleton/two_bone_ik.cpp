@@ -187,13 +187,16 @@ Leg leg_of(const Skeleton& skeleton, int thigh, int foot, int toe, int other_foo
   return leg;
 }
 
-// To the character's left at rest, as the thighs see it.
+// To the character's left at rest, as thighs and feet see it.
 void hinge_at_rest(const Skeleton& skeleton, Leg& of_left, Leg& of_right) {
   std::vector<Vector3> heads;
   std::vector<Quaternion> rotations;
   rest_pose(skeleton, heads, rotations);
-  const Vector3 left = heads[of_left.thigh] - heads[of_right.thigh];
-  for (Leg* leg : {&of_left, &of_right}) leg->hinge = rotations[leg->thigh].conjugate() * left.normalized();
+  const Vector3 left = (heads[of_left.thigh] - heads[of_right.thigh]).normalized();
+  for (Leg* leg : {&of_left, &of_right}) {
+    leg->hinge = rotations[leg->thigh].conjugate() * left;
+    leg->across = rotations[leg->foot].conjugate() * left;
+  }
 }
 
 // How well two joints serve as shoulder and elbow of a hand, m.

@@ -21,9 +21,10 @@ constexpr double kTires = 0.965;
 /// the shin, which begins at the knee, and `ankle` the way to its end.
 struct Leg {
   int thigh = -1, knee = -1, foot = -1, toe = -1;
-  int above_foot = -1;               ///< The foot's parent.
-  Vector3 hinge = Vector3::UnitX();  ///< The axis that the knee bends about, as the thigh sees it.
-  Vector3 ankle = Vector3::Zero();   ///< m, from the foot's head, as the foot sees it.
+  int above_foot = -1;                ///< The foot's parent.
+  Vector3 hinge = Vector3::UnitX();   ///< The axis that the knee bends about, as the thigh sees it.
+  Vector3 ankle = Vector3::Zero();    ///< m, from the foot's head, as the foot sees it.
+  Vector3 across = Vector3::UnitX();  ///< To the character's left at rest, as the foot sees it.
 
   bool exists() const { return knee >= 0; }
   bool has_foot() const { return foot != knee; }

@@ -27,6 +27,7 @@ FIGURES = (
     "response_p95_s",
     "no_response_share",
     "foot_skate_ratio",
+    "foot_turn_ratio",
     "joint_step_ratio",
     "sliding_contact_share",
     "drift_percent",
@@ -111,12 +112,13 @@ def _percent_of_commanded(every: Sequence[core.Performance], speed: float) -> fl
 
 
 def looks(yardstick: core.MotionMetrics, performances: list[list[core.Performance]]) -> dict[str, float | None]:
-    """Foot skate over the takes' own, the worst joint step at a stitch over the takes' 99.9th percentile (of places, a
-    frame), the share of the time on the ground in which a foot slides, accelerations and what else tells a body's
-    weight, and turns beyond the takes' limits."""
+    """Foot skate and how fast feet turn on the ground over the takes' own, the worst joint step at a stitch over the
+    takes' 99.9th percentile (of places, a frame), the share of the time on the ground in which a foot slides,
+    accelerations and what else tells a body's weight, and turns beyond the takes' limits."""
     takes, every = yardstick.takes, [yardstick.of(p) for some in performances for p in some]
     return {
         "foot_skate_ratio": statistics.fmean(m.foot_skate for m in every) / max(takes.foot_skate, _STILL),
+        "foot_turn_ratio": statistics.fmean(m.foot_turn for m in every) / max(takes.foot_turn, _STILL),
         "joint_step_ratio": max(m.positions.worst for m in every) / max(takes.positions.p999, _STILL),
         "sliding_contact_share": statistics.fmean(m.sliding_share for m in every),
         **accelerations(every),
