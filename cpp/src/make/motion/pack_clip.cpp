@@ -167,7 +167,7 @@ class Quantizer {
 
   // The nearest whole number: so far from 0 doubles are whole.
   [[gnu::always_inline]] static double rounded(double number) {
-    constexpr double far = 3LL << 51;
+    const double far = 3LL << 51;
     return (number + far) - far;
   }
 
