@@ -4,6 +4,7 @@
 #include "arrays.hpp"
 #include "base/ranges.hpp"
 #include "base/take_limits.hpp"
+#include "clips.hpp"
 #include "motion/bobbing.hpp"
 #include "motion/clip.hpp"
 #include "motion/cycle.hpp"
@@ -30,10 +31,20 @@ py::tuple to_tuple(Transforms transforms, int frames, int bones) {
                         to_array(std::move(transforms.rotations), {frames, bones, 4}));
 }
 
-void check_bones(const Clip& clip, const Skeleton& skeleton) {
-  if (clip.rotations.size() != std::size_t{4} * skeleton.size() * clip.frames) {
-    throw std::invalid_argument("clip \"" + clip.name + "\" has not the skeleton's number of bones");
-  }
+// A function of a clip on its skeleton, as a method of the clip.
+template <typename Function>
+auto on_skeleton(const Function& function) {
+  return [function](const Clip& clip, const Skeleton& skeleton) {
+    check_bones(clip, skeleton);
+    return without_gil([&] { return function(clip, skeleton); });
+  };
+}
+
+// [begin, end) of each.
+std::vector<std::pair<int, int>> spans_within(const Clip& clip, const Skeleton& skeleton) {
+  std::vector<std::pair<int, int>> spans;
+  for (const Span& span : motions_within(Kinematics(skeleton), clip)) spans.emplace_back(span.first, span.last + 1);
+  return spans;
 }
 
 /// x, y and heading of the character frame in each frame of the clip.
@@ -123,12 +134,12 @@ Clip with_markers(Clip clip, const Markers& markers) {
 }
 
 double too_far(const Skeleton& skeleton, const std::vector<Clip>& clips) {
-  for (const Clip& clip : clips) check_bones(clip, skeleton);
+  check_bones(clips, skeleton);
   return bobs_too_far(Kinematics(skeleton), clips);
 }
 
 std::vector<Clip> mirrored(const Skeleton& skeleton, const std::vector<Clip>& clips) {
-  for (const Clip& clip : clips) check_bones(clip, skeleton);
+  check_bones(clips, skeleton);
   if (clips.empty()) return {};
   const Kinematics kinematics(skeleton);
   const Mirror mirror(kinematics, clips);
@@ -138,7 +149,7 @@ std::vector<Clip> mirrored(const Skeleton& skeleton, const std::vector<Clip>& cl
 }
 
 std::vector<Clip> on_one_floor(const Skeleton& skeleton, std::vector<Clip> clips) {
-  for (const Clip& clip : clips) check_bones(clip, skeleton);
+  check_bones(clips, skeleton);
   put_level_on_one_floor(Kinematics(skeleton), clips);
   return clips;
 }
@@ -235,37 +246,16 @@ void bind_clip(py::module_& m) {
             return without_gil([&] { return led_by_feet(clip, skeleton, speed); });
           },
           py::arg("skeleton"), py::arg("speed") = 0.0)
-      .def(
-          "may_go",
-          [](const Clip& clip, const Skeleton& skeleton) {
-            check_bones(clip, skeleton);
-            return without_gil([&] { return may_go(Kinematics(skeleton), clip); });
-          },
-          py::arg("skeleton"))
-      .def(
-          "discontinuities",
-          [](const Clip& clip, const Skeleton& skeleton) {
-            check_bones(clip, skeleton);
-            return without_gil([&] { return discontinuities(skeleton, clip); });
-          },
-          py::arg("skeleton"))
-      .def(
-          "stands",
-          [](const Clip& clip, const Skeleton& skeleton) {
-            check_bones(clip, skeleton);
-            return without_gil([&] { return stands(Kinematics(skeleton), clip); });
-          },
-          py::arg("skeleton"))
-      .def(
-          "motions_within",
-          [](const Clip& clip, const Skeleton& skeleton) {
-            check_bones(clip, skeleton);
-            const auto found = without_gil([&] { return motions_within(Kinematics(skeleton), clip); });
-            std::vector<std::pair<int, int>> spans;
-            for (const Span& span : found) spans.emplace_back(span.first, span.last + 1);
-            return spans;
-          },
-          py::arg("skeleton"))
+      .def("may_go",
+           on_skeleton([](const Clip& clip, const Skeleton& skeleton) { return may_go(Kinematics(skeleton), clip); }),
+           py::arg("skeleton"))
+      .def("discontinuities",
+           on_skeleton([](const Clip& clip, const Skeleton& skeleton) { return discontinuities(skeleton, clip); }),
+           py::arg("skeleton"))
+      .def("stands",
+           on_skeleton([](const Clip& clip, const Skeleton& skeleton) { return stands(Kinematics(skeleton), clip); }),
+           py::arg("skeleton"))
+      .def("motions_within", on_skeleton(&spans_within), py::arg("skeleton"))
       .def(
           "character_frames",
           [](const Clip& clip, const Skeleton& skeleton) {

@@ -5,19 +5,13 @@
 #include <map>
 
 #include "arrays.hpp"
+#include "clips.hpp"
 #include "retarget/doubts.hpp"
 #include "retarget/retarget.hpp"
 #include "skins.hpp"
 
 namespace fragmotion::bindings {
 namespace {
-
-void check_bones(const std::vector<Clip>& clips, const Skeleton& skeleton) {
-  for (const Clip& clip : clips) {
-    if (clip.rotations.size() == std::size_t{4} * skeleton.size() * clip.frames) continue;
-    throw std::invalid_argument("clip \"" + clip.name + "\" has not the skeleton's number of bones");
-  }
-}
 
 ObservedPoses observed(const Skeleton& skeleton, const std::vector<Clip>& clips) {
   const Kinematics kinematics(skeleton);

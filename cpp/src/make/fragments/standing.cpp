@@ -54,8 +54,11 @@ class Stance {
     for (std::size_t b = 0; b < body.rotations.size(); b += 4) add_rotation(&body.rotations[b], &mean_.rotations[b]);
     mean_.height += body.height;
     ++count_;
-    if (!is_upright()) floor_ += lowest_tip();
-    for (int side = 0; side < 2 && is_upright(); ++side) add_foot(side, body);
+    if (is_upright()) {
+      for (int side = 0; side < 2; ++side) add_foot(side, body);
+    } else {
+      floor_ += lowest_tip();
+    }
   }
 
   BodyPose result() {

@@ -11,6 +11,8 @@
 namespace fragmotion {
 namespace {
 
+constexpr double kTooFar = 5;  // times: flights go farther than legs, too; jumps that are drawn 4 times at most
+
 // The hips' heights, and how high they are over what is lowest of the feet.
 struct Bobbing {
   Eigen::ArrayXd hips, legs;
@@ -41,7 +43,7 @@ double bobs_too_far(const Kinematics& kinematics, const std::vector<Clip>& clips
     const double both = (hips * legs).sum(), of_hips = hips.square().sum();
     if (both > 0 && 2 * both * both > of_hips * legs.square().sum()) told.push_back(of_hips / both);
   }
-  if (told.empty() || *std::min_element(told.begin(), told.end()) < 5) return 1;
+  if (told.empty() || *std::min_element(told.begin(), told.end()) < kTooFar) return 1;
   return median(told);
 }
 
