@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
@@ -29,15 +29,15 @@ def read_once() -> Iterator[None]:
 
 def points_of(curve: bpy.types.FCurve) -> NDArray[np.float32]:
     """[K,2]: scene frames and values of the curve's keys; not to be changed."""
-    if _kept is None:
-        return _read(curve)
-    key = curve.as_pointer()
-    if key not in _kept:
-        _kept[key] = _read(curve)
-    return _kept[key]
+    kept = None if _kept is None else _kept.get(curve.as_pointer())
+    return points_of_alike([curve], len(curve.keyframe_points))[0] if kept is None else kept
 
 
-def _read(curve: bpy.types.FCurve) -> NDArray[np.float32]:
-    points = np.empty((len(curve.keyframe_points), 2), np.float32)
-    curve.keyframe_points.foreach_get("co", points.ravel())
+def points_of_alike(curves: Sequence[bpy.types.FCurve], count: int) -> NDArray[np.float32]:
+    """[C,K,2]: points_of() of curves that have `count` keys each."""
+    points = np.empty((len(curves), count, 2), np.float32)
+    for curve, row in zip(curves, points.reshape(len(curves), 2 * count)):
+        curve.keyframe_points.foreach_get("co", row)
+    if _kept is not None:
+        _kept.update((curve.as_pointer(), row) for curve, row in zip(curves, points))
     return points

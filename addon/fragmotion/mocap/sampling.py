@@ -20,11 +20,12 @@ from ..rig.keys import from_quaternions, to_quaternions
 from ..rig.rigs import FEET, bone_path, held_of, is_tied, make_rig
 from . import left_out
 from .actions import RATE, SCENE_RATE, animated_bones, fitting, rate_of, with_own_bones
-from .curve_points import points_of
+from .curve_points import points_of, points_of_alike
 from .markers import markers_of
 
 if TYPE_CHECKING:
     from fragmotion_core import Clip, Doubles, Rig
+    from numpy.typing import NDArray
 
 Curves = dict[tuple[str, int], bpy.types.FCurve]
 
@@ -95,8 +96,8 @@ def _sample_curves(
             matrices, worlds = posing.sample_poses(context, obj, action, times)
             clip = rig.clip_from_matrices(action.name, rate, matrices, worlds)
         else:
-            locations, rotations = _sample_bones(obj, curves, times)
-            clip = rig.clip(action.name, rate, locations, rotations, _sample_object(obj, curves, times))
+            sampled = _Sampled(curves, times)
+            clip = rig.clip(action.name, rate, *_sample_bones(obj, sampled), _sample_object(obj, sampled))
         return clip.with_markers(markers_of(action, times))
 
 
@@ -173,11 +174,55 @@ def _playing_curves(obj: bpy.types.Object, action: bpy.types.Action) -> Curves:
     return {(c.data_path, c.array_index): c for c in versions.curves_of(action, obj) if not versions.is_muted(c)}
 
 
-def _sample_bones(obj: bpy.types.Object, curves: Curves, times: Doubles) -> tuple[Doubles, Doubles]:
+class _Sampled:
+    """F-curves at the times: all at once where their keys are those times, as in what was captured."""
+
+    def __init__(self, curves: Curves, times: Doubles) -> None:
+        self.times = times
+        self._curves = curves
+        alike = [
+            key for key, curve in curves.items() if len(curve.keyframe_points) == len(times) and not curve.modifiers
+        ]
+        points = points_of_alike([curves[key] for key in alike], len(times))
+        on_times = (np.abs(points[:, :, 0] - times) < _SAME_FRAME).all(axis=1)
+        self._read: dict[tuple[str, int], NDArray[np.float32]] = {
+            key: values for key, on, values in zip(alike, on_times, points[:, :, 1]) if on
+        }
+
+    def has(self, path: str) -> bool:
+        """Whether any curve is of this vector channel."""
+        return any((path, index) in self._curves for index in range(4))
+
+    def channel(self, path: str, rest: Sequence[float]) -> Doubles:
+        """A vector channel [F, len(rest)]: at rest where there is no curve."""
+        values = np.empty((len(self.times), len(rest)))
+        for index, default in enumerate(rest):
+            values[:, index] = self._values((path, index), default)
+        return values
+
+    def _values(self, key: tuple[str, int], default: float) -> Doubles | NDArray[np.float32] | float:
+        if key in self._read:
+            return self._read[key]
+        curve = self._curves.get(key)
+        return default if curve is None else _read_curve(curve, self.times)
+
+
+def _read_curve(curve: bpy.types.FCurve, times: Doubles) -> Doubles | NDArray[np.float32]:
+    """An F-curve's values at the times: its keys where some of them sit on these, else evaluated."""
+    if len(curve.keyframe_points) > len(times) and not curve.modifiers:
+        points = points_of(curve)
+        first = int(np.searchsorted(points[:, 0], times[0] - _SAME_FRAME))
+        near = points[first : first + len(times)]
+        if len(near) == len(times) and np.abs(near[:, 0] - times).max() < _SAME_FRAME:
+            return near[:, 1]
+    return np.fromiter((curve.evaluate(time) for time in times), float, len(times))
+
+
+def _sample_bones(obj: bpy.types.Object, sampled: _Sampled) -> tuple[Doubles, Doubles]:
     """Locations [F,B,3] and quaternions [F,B,4] of all bones, in the armature's order."""
-    bones, held = obj.data.bones, held_of(obj)
-    locations = np.zeros((len(times), len(bones), 3))
-    rotations = np.zeros((len(times), len(bones), 4))
+    bones, held, frames = obj.data.bones, held_of(obj), len(sampled.times)
+    locations = np.zeros((frames, len(bones), 3))
+    rotations = np.zeros((frames, len(bones), 4))
     for index, bone in enumerate(bones):
         mode = obj.pose.bones[bone.name].rotation_mode
         place: Sequence[float] = (0, 0, 0)
@@ -185,44 +230,22 @@ def _sample_bones(obj: bpy.types.Object, curves: Curves, times: Doubles) -> tupl
         if bone.name in held:
             place, rest = held[bone.name][:3], tuple(from_quaternions(mode, np.array([held[bone.name][3:]]))[1][0])
         if not is_tied(bone):
-            locations[:, index] = _channel(curves, bone_path(bone.name, "location"), place, times)
-        rotations[:, index] = to_quaternions(mode, _channel(curves, bone_path(bone.name, channel), rest, times))
+            locations[:, index] = sampled.channel(bone_path(bone.name, "location"), place)
+        rotations[:, index] = to_quaternions(mode, sampled.channel(bone_path(bone.name, channel), rest))
     return locations, rotations
 
 
-def _sample_object(obj: bpy.types.Object, curves: Curves, times: Doubles) -> Doubles | None:
+def _sample_object(obj: bpy.types.Object, sampled: _Sampled) -> Doubles | None:
     """World matrices [F,4,4] of an object that its own F-curves move, else None."""
-    if not any((channel, index) in curves for channel in _OBJECT_CHANNELS for index in range(4)):
+    if not any(sampled.has(channel) for channel in _OBJECT_CHANNELS):
         return None
     channel, _ = _ROTATIONS.get(obj.rotation_mode, _EULER)
-    locations = _channel(curves, "location", obj.location, times)
-    scales = _channel(curves, "scale", obj.scale, times)
-    rotations = to_quaternions(obj.rotation_mode, _channel(curves, channel, getattr(obj, channel), times))
+    locations = sampled.channel("location", obj.location)
+    scales = sampled.channel("scale", obj.scale)
+    rotations = to_quaternions(obj.rotation_mode, sampled.channel(channel, getattr(obj, channel)))
     return np.array(
         [
             Matrix.LocRotScale(Vector(location), Quaternion(rotation).normalized(), Vector(scale))
             for location, rotation, scale in zip(locations, rotations, scales)
         ]
     )
-
-
-def _channel(curves: Curves, path: str, rest: Sequence[float], times: Doubles) -> Doubles:
-    """A vector channel at the times, [F, len(rest)]."""
-    values = np.empty((len(times), len(rest)))
-    for index, default in enumerate(rest):
-        curve = curves.get((path, index))
-        values[:, index] = default if curve is None else read_curve(curve, times)
-    return values
-
-
-def read_curve(curve: bpy.types.FCurve, times: Doubles) -> Doubles:
-    """An F-curve's values at the times: its keys where they sit on them, else evaluated."""
-    keys = curve.keyframe_points
-    if len(keys) >= len(times) and not curve.modifiers:
-        points = points_of(curve)
-        spare = len(points) > len(times)
-        first = int(np.searchsorted(points[:, 0], times[0] - _SAME_FRAME)) if spare else 0
-        near = points[first : first + len(times)]
-        if len(near) == len(times) and np.abs(near[:, 0] - times).max() < _SAME_FRAME:
-            return near[:, 1].astype(float)
-    return np.fromiter((curve.evaluate(time) for time in times), float, len(times))
