@@ -66,8 +66,8 @@ struct Scratch {
 /// What a step leaves to be asked for.
 struct StepReport {
   int count = 0;
-  Vector3 motion = Vector3::Zero(), velocity = Vector3::Zero();
   double turned = 0;
+  Vector3 motion = Vector3::Zero(), velocity = Vector3::Zero();
   std::array<FragmotionEvent, FRAGMOTION_MOST_EVENTS> events{};
 };
 
@@ -96,25 +96,26 @@ struct FragmotionPlayer {
   FragmotionPlayer(std::shared_ptr<const fragmotion::Hero> of, fragmotion::Player&& made,
                    std::shared_ptr<fragmotion::Scratch> room, const FragmotionPlayerOptions& wanted);
 
+  // What each step needs lies together, from here to the report's events.
   std::shared_ptr<const fragmotion::Hero> hero;
   fragmotion::Player player;
   std::shared_ptr<fragmotion::Scratch> scratch;
-  FragmotionPlayerOptions options;
-  bool in_crowd = false;
-  std::optional<fragmotion::Clearance> clearance;  // of the next step
+  bool in_crowd = false, arrived = false;
   fragmotion::WayRound way_round;
   FragmotionGround ground = nullptr;
   void* ground_user = nullptr;
-
   fragmotion::Shift shift;
   fragmotion::Steering steering;
   int steers_style = 0;
-  std::optional<fragmotion::Route> route;
-  bool arrived = false;
+  fragmotion::Shown now;  // played last
+  FragmotionPlayerOptions options;
   double banked = 0;  // s that are still to be played: of a fixed step, or of steps that were left out
   std::uint32_t left_out = 0;
-  fragmotion::Shown now, before, between;  // played last, before that, and shown of a fixed step
   fragmotion::StepReport report;
+
+  std::optional<fragmotion::Clearance> clearance;  // of the next step
+  std::optional<fragmotion::Route> route;
+  fragmotion::Shown before, between;  // of a fixed step: before what was played last, and shown
 
   bool has_fixed_step() const { return options.fixed_step > 0; }
   const fragmotion::Shown& shown() const { return has_fixed_step() ? between : now; }

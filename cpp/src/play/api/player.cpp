@@ -11,6 +11,11 @@ namespace {
 
 double heading_of_way(const Vector3& way) { return std::atan2(-way.x(), way.y()); }
 
+void prefetch_between(const void* first, const void* end) {
+  const auto* bytes = static_cast<const char*>(first);
+  prefetch(bytes, static_cast<std::size_t>(static_cast<const char*>(end) - bytes));
+}
+
 }  // namespace
 
 PlayerOptions to_options(const FragmotionPlayerOptions& options) {
@@ -58,8 +63,8 @@ FragmotionPlayer::FragmotionPlayer(std::shared_ptr<const Hero> of, Player&& made
     : hero(std::move(of)),
       player(std::move(made)),
       scratch(std::move(room)),
-      options(fragmotion_player_options()),
-      steering(player.styled_character().space, hero->turns_well[0]) {
+      steering(player.styled_character().space, hero->turns_well[0]),
+      options(fragmotion_player_options()) {
   set_options(wanted);
   reset(nullptr, 0);
   make_room();
@@ -269,18 +274,14 @@ void FragmotionPlayer::interpolate() {
 }
 
 // What tells whether its next step is left out, which is all that such a step needs of it.
-void FragmotionPlayer::prefetch_turn() const {
-  fragmotion::prefetch(&options, 1);
-  fragmotion::prefetch(&banked, 1);
-  fragmotion::prefetch(&report.count, 1);
-  fragmotion::prefetch(&report.turned, 1);
-}
+void FragmotionPlayer::prefetch_turn() const { prefetch_between(&options, &report.events); }
 
 // What its next step needs of it, unless that is left out.
 void FragmotionPlayer::prefetch() const {
   if (!has_fixed_step() && left_out + 1 < options.step_interval) return;
-  fragmotion::prefetch(this, 1);
   player.prefetch();
+  prefetch_between(&scratch, &options);
+  fragmotion::prefetch(now.rotations.data(), now.rotations.size());
 }
 
 void FragmotionPlayer::step(const FragmotionInput& input, double seconds) {

@@ -192,6 +192,7 @@ void PlayerState::exchange(Archive& a, Reaching& reaching) {
   a.number(reaching.level_, -kMostPlace, kMostPlace);
   vector(a, reaching.speed_, kMostPlace);
   a.number(reaching.turning_, -kMostPlace, kMostPlace);
+  reaching.idles_ = false;
 }
 
 template <typename Archive>

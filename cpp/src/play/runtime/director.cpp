@@ -159,7 +159,7 @@ int Director::continuation(const Control& control, const Playback& playback, con
   if (found < 0) return -1;
   const int next = waiting_ >= 0 && !has_changed(wanted) ? waiting_ : look_up_class(class_, wanted);
   const float staying = selector.cost_of_going_on(found, wanted);
-  if (!plans_) return staying <= selector.usual_cost(class_, next, wanted, playback, staying) ? found : -1;
+  if (!plans_) return staying <= selector.usual_cost(class_, next, wanted) ? found : -1;
   const int entered = selector.class_of(found), after = look_up_class(entered, wanted);
   if (bridge_between(entered, after) >= 0 || !selector.goes_as_asked(after, wanted)) return -1;
   const int second = selector.successor(found, wanted);

@@ -164,16 +164,11 @@ Cost FragmentSelector::least_cost(int next_class, const Control& control, const 
   return {whole, style_->cost.of_going_on(style_->members[next_class].fragment(candidates.best), control)};
 }
 
-float FragmentSelector::usual_cost(int of_class, int next_class, const Control& control, const Playback& playback,
-                                   float enough) const {
-  const Quality& quality = style_->character->quality;
-  const double smooth = quality.smoothness[static_cast<std::size_t>(of_class) * quality.classes + next_class];
-  const float joining =
-      style_->cost.of_joining(static_cast<float>(2 * (1 / smooth - 1)), 0);  // of places and of speeds
-  if (joining >= enough) return joining;
-  Candidates& candidates = workspace_->candidates[0];
-  find_candidates(next_class, control, {playback.fragment(), playback.contacts()}, candidates);
-  return candidates.costs[candidates.best] + joining;
+float FragmentSelector::usual_cost(int of_class, int next_class, const Control& control) const {
+  const Character& c = *style_->character;
+  const double smooth = c.quality.smoothness[static_cast<std::size_t>(of_class) * c.quality.classes + next_class];
+  return style_->cost.of_joining(static_cast<float>(2 * (1 / smooth - 1)), 0) +  // of places and of speeds
+         style_->cost.of_going_on(c.classes.representatives[next_class], control);
 }
 
 int FragmentSelector::choose(int next_class, const Control& control, const Playback& playback, bool posed) {

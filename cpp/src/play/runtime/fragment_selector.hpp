@@ -58,10 +58,10 @@ class FragmentSelector {
   int best_class(const Control& control, const Playback& playback) const;
   /// What it costs to play a class after what is shown; or, where that is no less than `enough`, anything between.
   Cost cost_of_leaving(int next_class, const Control& control, const Playback& playback, float enough = kAny) const;
-  /// The same at least after a class's end, if its members join as the representatives do (Eq. 2).
-  float usual_cost(int of_class, int next_class, const Control& control, const Playback& playback, float enough) const;
   /// The same after a fragment that is played to its end, which begins after these steps.
   Cost cost_of_leaving(int next_class, const Control& control, int fragment, StepSequence steps) const;
+  /// What it costs that a class's representative follows that of another (Eq. 2).
+  float usual_cost(int of_class, int next_class, const Control& control) const;
   /// What it costs to join a move on to what is shown.
   double distance_to(int move, const Playback& playback) const;
 

@@ -19,6 +19,7 @@ void Player::prefetch() const {
   fragmotion::prefetch(this, 1);
   playback_.prefetch();
   correction_.prefetch();
+  if (reaching_ != nullptr) reaching_->prefetch();
 }
 
 void Player::check_step(const Control& control, double seconds) {

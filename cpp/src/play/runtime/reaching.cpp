@@ -69,6 +69,7 @@ void Reaching::reach(int side, const HandAim& aim) {
     hand.weight_due = std::max(heard, kReachesIn * std::abs(aim.weight - hand.weight.value));
   hand.aim = aim;
   hand.since = 0;
+  idles_ = false;
 }
 
 // The place that is followed goes on as it goes, seen from the other space.
@@ -176,8 +177,9 @@ void Reaching::bend(int side, const std::optional<Goal>& goal, double seconds) {
 
 void Reaching::apply(double level, double seconds) {
   follow_frame(level, seconds);
+  if (idles_) return;
   for (Hand& hand : hands_) {
-    hand.since += seconds;
+    hand.since = std::min(hand.since + seconds, kControlStep);
     if (hand.rests()) continue;
     for (int i = 0; i < 3; ++i) hand.place[i].advance(hand.aim.place[i], hand.place_due, seconds);
     hand.weight.advance(hand.aim.weight, hand.weight_due, seconds);
@@ -185,7 +187,10 @@ void Reaching::apply(double level, double seconds) {
     hand.weight_due = std::max(0.0, hand.weight_due - seconds);
   }
   const auto idles = [](const Hand& hand) { return hand.rests() && hand.hangs(); };
-  if (idles(hands_[0]) && idles(hands_[1]) && lean_.isZero(0)) return;
+  if (idles(hands_[0]) && idles(hands_[1]) && lean_.isZero(0)) {
+    idles_ = std::min(hands_[0].since, hands_[1].since) == kControlStep;
+    return;
+  }
   see();
   const Goals goals{goal(0), goal(1)};
   if (lean(goals, seconds)) see();

@@ -32,6 +32,8 @@ class Reaching {
   /// `side`: 0 left, 1 right.
   void reach(int side, const HandAim& aim);
   const HandAim& aim(int side) const { return hands_[side].aim; }
+  /// Lets what it needs while hands are as captured be on its way to the processor.
+  void prefetch() const { fragmotion::prefetch(&workspace_, 9); }
 
   /// Changes Workspace::shown, `seconds` after the pose that was shown last, where the ground under the character is at
   /// the height `level`, m.
@@ -56,7 +58,7 @@ class Reaching {
     std::array<Approach, 3> place;  // as it is followed, in the aim's space
     Approach weight;                // likewise
     double place_due = 0, weight_due = 0;
-    double since = 0;           // s since it was told
+    double since = 0;           // s since it was told, as far as that counts
     std::array<Turn, 2> turns;  // of the upper and the lower arm
 
     bool rests() const { return weight.rests() && aim.weight == 0; }
@@ -81,12 +83,13 @@ class Reaching {
   void bend(int side, const std::optional<Goal>& goal, double seconds);
 
   Workspace* workspace_;
-  std::array<Hand, 2> hands_;
+  bool idles_ = false;               // nothing of the hands changes until one reaches
   CharacterFrame frame_;             // as it was shown last
   double level_ = 0;                 // likewise
   Vector2 speed_ = Vector2::Zero();  // of the frame, m/s
   double turning_ = 0;               // likewise, rad/s
-  Vector3 lean_ = Vector3::Zero();   // of the trunk, seen from the frame: an axis, as long as the angle is, rad
+  std::array<Hand, 2> hands_;
+  Vector3 lean_ = Vector3::Zero();  // of the trunk, seen from the frame: an axis, as long as the angle is, rad
 };
 
 }  // namespace fragmotion
