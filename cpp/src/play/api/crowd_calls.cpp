@@ -102,7 +102,8 @@ FragmotionResult fragmotion_crowd_create(const FragmotionCharacter* character, c
 void fragmotion_crowd_release(FragmotionCrowd* crowd) noexcept {
   if (crowd == nullptr) return;
   if (call("fragmotion_crowd_release", [&] { demand_alive(crowd, Kind::crowd); }) != FRAGMOTION_OK) return;
-  for (const auto& player : crowd->players) unlist_alive(player.get());
+  // The list is in the order of addresses, and who was made last has mostly a high one: less is moved in it.
+  std::for_each(crowd->players.rbegin(), crowd->players.rend(), [](const auto& each) { unlist_alive(each.get()); });
   unlist_alive(crowd);
   delete crowd;
 }
