@@ -24,8 +24,7 @@ struct PlayerState {
 
   /// Which feet stand, as they are shown.
   static std::array<bool, 2> standing_feet(const Player& player) {
-    const Playback& playback = player.playback_;
-    const std::array<bool, 2> stand = playback.standing_feet(playback.seconds());
+    const std::array<bool, 2>& stand = player.playback_.steps().stands;
     return {player.correction_.plants(0, stand[0]), player.correction_.plants(1, stand[1])};
   }
 

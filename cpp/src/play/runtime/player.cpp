@@ -144,7 +144,7 @@ double Player::quality(int control) const {
 std::array<std::optional<Vector3>, 2> Player::standing_feet() const {
   const Kinematics& kinematics = workspace_->kinematics;
   const std::array<LegRoles, kMostLegs> legs = leg_roles(kinematics.skeleton().roles);
-  const std::array<bool, 2> stands = playback_.standing_feet(playback_.seconds());
+  const std::array<bool, 2>& stands = playback_.steps().stands;
   PosedBones posed(kinematics.bones());
   kinematics.world(root_, rotations().data(), posed.heads.data(), posed.rotations.data());
   std::array<std::optional<Vector3>, 2> soles;
