@@ -11,11 +11,6 @@ namespace {
 
 double heading_of_way(const Vector3& way) { return std::atan2(-way.x(), way.y()); }
 
-void prefetch_between(const void* first, const void* end) {
-  const auto* bytes = static_cast<const char*>(first);
-  prefetch(bytes, static_cast<std::size_t>(static_cast<const char*>(end) - bytes));
-}
-
 }  // namespace
 
 PlayerOptions to_options(const FragmotionPlayerOptions& options) {

@@ -8,16 +8,20 @@ namespace fragmotion {
 /// Bones are kept in blocks of so many, x, y and z apart, for the sake of vector instructions.
 constexpr int kBoneBlock = 8;
 
-/// Lets the memory of objects that are needed soon be on its way to the processor.
-template <typename T>
-void prefetch(const T* objects, std::size_t count) {
+/// Lets the memory from one address up to another, which is needed soon, be on its way to the processor.
+inline void prefetch_between(const void* first, const void* end) {
 #ifdef __GNUC__
   constexpr std::size_t kLine = 64;
-  const auto* bytes = reinterpret_cast<const char*>(objects);
-  for (std::size_t at = 0; at < count * sizeof(T); at += kLine) __builtin_prefetch(bytes + at, 1);
+  for (const auto* at = static_cast<const char*>(first); at < end; at += kLine) __builtin_prefetch(at, 1);
 #else
-  static_cast<void>(objects), static_cast<void>(count);
+  static_cast<void>(first), static_cast<void>(end);
 #endif
+}
+
+/// Likewise that of objects.
+template <typename T>
+void prefetch(const T* objects, std::size_t count) {
+  prefetch_between(objects, objects + count);
 }
 
 }  // namespace fragmotion
