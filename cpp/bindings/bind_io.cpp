@@ -10,6 +10,7 @@
 #include "io/asf_amc.hpp"
 #include "io/bvh.hpp"
 #include "io/hanging.hpp"
+#include "io/joints.hpp"
 #include "io/rig.hpp"
 #include "io/rotation.hpp"
 
@@ -160,15 +161,26 @@ void bind_rig(py::module_& m) {
           py::arg("take"));
 }
 
-std::map<int, int> hanging(const std::vector<std::string>& names, const std::vector<int>& parents, const Doubles& poses,
-                           const std::vector<int>& candidates) {
+int checked_bones(const std::vector<std::string>& names, const std::vector<int>& parents, const Doubles& poses,
+                  const std::vector<int>& told) {
   const int bones = static_cast<int>(parents.size());
   check_shape(poses, "poses", {-1, bones, 4, 4});
   for (int b = 0; b < bones; ++b) require_range("a bone's parent", parents[b], -1, b - 1);
-  for (const int bone : candidates) require_range("a candidate", bone, 0, bones - 1);
+  for (const int bone : told) require_range("a bone", bone, 0, bones - 1);
   if (names.size() != parents.size()) throw std::invalid_argument("there must be as many names as parents");
-  const int frames = static_cast<int>(poses.shape(0));
+  return static_cast<int>(poses.shape(0));
+}
+
+std::map<int, int> hanging(const std::vector<std::string>& names, const std::vector<int>& parents, const Doubles& poses,
+                           const std::vector<int>& candidates) {
+  const int frames = checked_bones(names, parents, poses, candidates);
   return without_gil([&] { return find_hanging(names, parents, poses.data(), frames, candidates); });
+}
+
+std::map<int, int> joints(const std::vector<std::string>& names, const std::vector<int>& parents, const Doubles& poses,
+                          const std::vector<int>& bearing) {
+  const int frames = checked_bones(names, parents, poses, bearing);
+  return without_gil([&] { return find_joints(names, parents, poses.data(), frames, bearing); });
 }
 
 double beside(const Doubles& poses, int bone, int other) {
@@ -185,6 +197,7 @@ void bind_io(py::module_& m) {
   bind_rotations(m);
   bind_rig(m);
   m.def("find_hanging", &hanging, py::arg("names"), py::arg("parents"), py::arg("poses"), py::arg("candidates"));
+  m.def("find_joints", &joints, py::arg("names"), py::arg("parents"), py::arg("poses"), py::arg("bearing"));
   m.def("span_beside", &beside, py::arg("poses"), py::arg("bone"), py::arg("other"));
 }
 

@@ -258,6 +258,13 @@ def find_hanging(
     in whose frame it goes least from frame to frame, where that is a third at most of what it goes in its parent's; two
     that are each other's left and right by their names hang alike."""
 
+def find_joints(
+    names: Sequence[str], parents: Sequence[int], poses: ArrayLike, bearing: Sequence[int]
+) -> dict[int, int]:
+    """Of the bones that carry a mesh, on which of them each hangs whose parent is none of them, as in rigs that were
+    exported with their controls: a joint stays in its place as the bone sees it that it hangs on. All but one hang.
+    poses [F,B,4,4] in the armature's space; bearing: in the bones' order."""
+
 def span_beside(poses: ArrayLike, bone: int, other: int) -> float:
     """How far a bone's head goes to and fro as another bone sees it: the diagonal of the box that holds it in all of
     the poses [F,B,4,4], in the armature's units."""

@@ -14,6 +14,7 @@ from bpy.props import StringProperty
 from ..compat import versions
 from ..compat.core import core
 from . import posing
+from .mesh_bones import bones_beside_names, hang_by_motion
 from .rigs import bone_path, carriers, hanging_of, is_tied, make_rig
 
 if TYPE_CHECKING:
@@ -33,6 +34,10 @@ def find_hanging(context: bpy.types.Context, obj: bpy.types.Object, actions: Seq
     """Keep with the armature which of its bones hang on others in these Actions, and say so, and what is left out."""
     bones, least = obj.data.bones, least_way(obj)
     obj.fragmotion.hanging.clear()
+    if actions and (of_mesh := bones_beside_names(obj)):
+        poses = _poses(context, obj, actions)
+        _keep(obj, hang_by_motion(obj, of_mesh, poses))
+        return [_say_mesh(obj, of_mesh)]
     rig = make_rig(obj)
     carrying, hips = carriers(obj, rig), bones[rig.skeleton.roles["hips"]]
     others = [bone for bone in bones if bone.name not in carrying]
@@ -43,15 +48,24 @@ def find_hanging(context: bpy.types.Context, obj: bpy.types.Object, actions: Seq
     found = _beside_body(obj, rig)
     ways = dict[str, float]()
     if candidates:
-        poses = np.concatenate([posing.sample_poses(context, obj, action, _times(action))[0] for action in actions])
+        poses = _poses(context, obj, actions)
         parents = [bones.find(bone.parent.name) if bone.parent else -1 for bone in bones]
         moving = core.find_hanging(bones.keys(), parents, poses, [bones.find(name) for name in candidates])
         ways = {name: core.span_beside(poses, bones.find(name), bones.find(hips.name)) for name in candidates}
         found = {**found, **_beside_hips(obj, hips, candidates), **_on_body(obj, hips, moving)}
-    for bone, on in sorted(found.items()):
-        row = obj.fragmotion.hanging.add()
-        row.name, row.on = bones[bone].name, bones[on].name
+    _keep(obj, {bones[bone].name: bones[on].name for bone, on in sorted(found.items())})
     return _say(obj, make_rig(obj) if found else rig, ways)
+
+
+def _poses(context: bpy.types.Context, obj: bpy.types.Object, actions: Sequence[bpy.types.Action]) -> Doubles:
+    """Some of each Action [F,B,4,4]."""
+    return np.concatenate([posing.sample_poses(context, obj, action, _times(action))[0] for action in actions])
+
+
+def _keep(obj: bpy.types.Object, hanging: Mapping[str, str]) -> None:
+    for name, on in hanging.items():
+        row = obj.fragmotion.hanging.add()
+        row.name, row.on = name, on
 
 
 def moves_beside(obj: bpy.types.Object, rig: Rig, action: bpy.types.Action) -> bool:
@@ -127,6 +141,14 @@ def _say(obj: bpy.types.Object, rig: Rig, ways: Mapping[str, float]) -> list[str
             f"Left out: what keys of bone '{rest[0]}'{more} move away from the parent{_say_far(obj, ways, rest)}"
         )
     return told
+
+
+def _say_mesh(obj: bpy.types.Object, of_mesh: Sequence[str]) -> str:
+    foot = make_rig(obj, roles={}).skeleton.roles["left_foot"]
+    return (
+        f"Learned, and baked, are the {len(of_mesh)} bones that the mesh follows, as they move with each other: of the "
+        f"legs that names tell ('{foot}') it follows none"
+    )
 
 
 def _say_far(obj: bpy.types.Object, ways: Mapping[str, float], names: Sequence[str]) -> str:

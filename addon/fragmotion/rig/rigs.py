@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 import bpy
@@ -28,9 +29,11 @@ FEWEST_BONES = 2
 """A character needs a bone that moves against another."""
 
 
-def make_rig(obj: bpy.types.Object, place: Matrix | None = None) -> Rig:
-    """The armature at its place in the world now, or at another; UserError on what no character can have."""
+def make_rig(obj: bpy.types.Object, place: Matrix | None = None, roles: Mapping[str, str] | None = None) -> Rig:
+    """The armature at its place in the world now, or at another, its roles as *Bones* has them or as given; UserError
+    on what no character can have."""
     bones = obj.data.bones
+    roles = roles_in_bones(obj) if roles is None else roles
     if len(bones) < FEWEST_BONES:
         count = {0: "no bones", 1: f"only one bone, '{bones[0].name}'" if bones else ""}[len(bones)]
         raise UserError(f"Armature '{obj.name}' has {count}; a character needs a body of several bones")
@@ -43,7 +46,7 @@ def make_rig(obj: bpy.types.Object, place: Matrix | None = None) -> Rig:
             world=np.array(obj.matrix_world if place is None else place),
             inherit_rotation=[bone.use_inherit_rotation for bone in bones],
             local_location=[bone.use_local_location for bone in bones],
-            roles={role: bone for role, bone in roles_in_bones(obj).items() if role in core.ROLES and bone in bones},
+            roles={role: bone for role, bone in roles.items() if role in core.ROLES and bone in bones},
             hangs={name: on for name, on in hanging_of(obj).items() if name in bones and on in bones},
             held=held_of(obj),
             sizes=sizes_of(obj),

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from typing import TYPE_CHECKING
 
 import bpy
@@ -36,6 +37,35 @@ def make_skin(obj: bpy.types.Object, rig: Rig) -> Skin:
             rows = np.column_stack([np.arange(len(points)), np.zeros(len(points)), np.ones(len(points))])
             skin.add(np.array(to @ _resting(mesh, obj)), points, [mesh.parent_bone], rows)
     return skin
+
+
+def is_followed(obj: bpy.types.Object, names: Collection[str]) -> bool:
+    """Whether a mesh follows one of these bones, or none follows any."""
+    meshes = [mesh for mesh in bpy.data.objects if mesh.type == "MESH" and mesh.find_armature() == obj]
+    if any(mesh.type == "MESH" and mesh.parent == obj and mesh.parent_bone in names for mesh in bpy.data.objects):
+        return True
+    return not meshes or any(_follows(mesh, names) for mesh in meshes)
+
+
+def _follows(mesh: bpy.types.Object, names: Collection[str]) -> bool:
+    told = {group.index for group in mesh.vertex_groups if group.name in names}
+    return bool(told) and any(
+        group.group in told and group.weight > 0 for vertex in mesh.data.vertices for group in vertex.groups
+    )
+
+
+def bones_of_meshes(obj: bpy.types.Object) -> set[str]:
+    """The bones that a mesh follows, by its weights or as their child."""
+    followed = set[str]()
+    for mesh in bpy.data.objects:
+        if mesh.type == "MESH" and mesh.find_armature() == obj:
+            names = [group.name for group in mesh.vertex_groups]
+            followed |= {
+                names[group.group] for vertex in mesh.data.vertices for group in vertex.groups if group.weight > 0
+            }
+        elif mesh.type == "MESH" and mesh.parent == obj and mesh.parent_type == "BONE":
+            followed.add(mesh.parent_bone)
+    return followed & set(obj.data.bones.keys())
 
 
 def _copies(obj: bpy.types.Object) -> set[str]:

@@ -246,3 +246,94 @@ def test_build_says_what_is_scaled(addon: ModuleType, capfd: pytest.CaptureFixtu
     assert bpy.ops.fragmotion.build("EXEC_DEFAULT") == {"FINISHED"}
     (told,) = (line for line in capfd.readouterr().out.splitlines() if "the scale of" in line)
     assert "the scale of bone 'shin.R' and 1 more, up to 50 times" in told
+
+
+@pytest.fixture
+def exported_whole(addon: ModuleType) -> bpy.types.Object:
+    """The sample as Auto-Rig Pro's rigs are exported with their controls: the mesh's bones hang on a path, and bones
+    that are named as legs lie where they rest."""
+    obj = making.open_sample()
+    obj.fragmotion.moves.clear()
+    action = bpy.data.actions["walk forward"]
+    for each in bpy.data.actions:
+        each.fragmotion.use = each == action
+    frames = range(*(int(frame) for frame in action.frame_range))
+    with addon.rig.posing.playing(bpy.context, obj, action):
+        seen = {frame: _all_matrices(obj, frame) for frame in frames}
+    with making.editing(obj) as bones:
+        followed = [bone for bone in bones if bone.name != "root"]
+        copies = {
+            bone.name: (bone.parent.name, *(vector.copy() for vector in (bone.head, bone.tail))) for bone in followed
+        }
+        for bone in followed:
+            bone.use_connect, bone.parent = False, bones["root"]
+            bone.name = _of_mesh(bone.name)
+        for name, (parent, head, tail) in copies.items():
+            copy = bones.new(name)
+            copy.head, copy.tail, copy.parent = head, tail, bones[parent]
+    bpy.data.actions.remove(action)
+    obj.animation_data.action = baked = bpy.data.actions.new("walk")
+    for frame in frames:
+        bpy.context.scene.frame_set(frame)
+        for name, matrix in seen[frame].items():
+            bone = obj.pose.bones["root" if name == "root" else _of_mesh(name)]
+            bone.rotation_mode, bone.matrix = "QUATERNION", matrix
+            bpy.context.view_layer.update()
+            for channel in ("location", "rotation_quaternion"):
+                bone.keyframe_insert(channel)
+    baked.fragmotion.use = True
+    return obj
+
+
+def _of_mesh(name: str) -> str:
+    """As "thigh_stretch.L" of "thigh.L"."""
+    stem, dot, side = name.partition(".")
+    return f"{stem}_stretch{dot}{side}"
+
+
+def _all_matrices(obj: bpy.types.Object, frame: int) -> dict[str, object]:
+    bpy.context.scene.frame_set(frame)
+    posed = obj.evaluated_get(bpy.context.evaluated_depsgraph_get())
+    return {bone.name: bone.matrix.copy() for bone in posed.pose.bones}
+
+
+def test_what_the_mesh_follows_is_the_body_of_a_rig_that_was_exported_whole(
+    addon: ModuleType, exported_whole: bpy.types.Object
+) -> None:
+    for _ in range(2):  # again, with the roles that were found
+        assert bpy.ops.fragmotion.build("EXEC_DEFAULT") == {"FINISHED"}
+        hanging = {row.name: row.on for row in exported_whole.fragmotion.hanging}
+        for bone, on in (("shin", "thigh"), ("foot", "shin"), ("upper_arm", "shoulder"), ("hand", "forearm")):
+            assert hanging[_of_mesh(f"{bone}.L")] == _of_mesh(f"{on}.L")
+        assert hanging["thigh_stretch.R"] == "hips_stretch"
+        skeleton = addon.character.building.load(exported_whole).skeleton
+        assert {role: skeleton.roles[role] for role in ("hips", "head", "left_foot", "right_thigh", "left_hand")} == {
+            "hips": "hips_stretch",
+            "head": "head_stretch",
+            "left_foot": "foot_stretch.L",
+            "right_thigh": "thigh_stretch.R",
+            "left_hand": "hand_stretch.L",
+        }
+        assert "alks" in exported_whole.fragmotion.figures.abilities
+
+
+def test_a_bake_moves_what_the_mesh_follows_as_build_has_learned_it(
+    addon: ModuleType, exported_whole: bpy.types.Object
+) -> None:
+    joints = {_of_mesh(f"{bone}.L"): _of_mesh(f"{on}.L") for bone, on in (("shin", "thigh"), ("foot", "shin"))}
+    rest = {bone: _seen_from(exported_whole.data.bones, bone, on, "matrix_local") for bone, on in joints.items()}
+    assert bpy.ops.fragmotion.build("EXEC_DEFAULT") == {"FINISHED"}
+    assert bpy.ops.fragmotion.bake("EXEC_DEFAULT", trace_source="PLAYER", seconds=4) == {"FINISHED"}
+    knees = []
+    for frame in range(1, 90, 8):
+        bpy.context.scene.frame_set(frame)
+        knees.append(exported_whole.pose.bones["shin_stretch.L"].head.copy())
+        for bone, on in joints.items():
+            assert np.linalg.norm(_seen_from(exported_whole.pose.bones, bone, on, "matrix") - rest[bone]) < 1e-3
+    assert np.ptp(knees, axis=0).max() > 0.1
+
+
+def test_a_rig_whose_mesh_follows_its_named_feet_is_as_its_names_tell(addon: ModuleType) -> None:
+    obj = making.open_sample()
+    assert addon.rig.mesh_bones.bones_beside_names(obj) == []
+    assert addon.rig.hanging.find_hanging(bpy.context, obj, addon.mocap.actions.ticked(obj)) == []

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "base/types.hpp"
 #include "io/hanging.hpp"
 #include "io/rig.hpp"
+#include "posed_frames.hpp"
 
 namespace fragmotion {
 namespace {
@@ -15,17 +15,6 @@ namespace {
 // root > hips > thigh > shin, and root > {foot > toe, pole}: the foot is where the shin ends, the pole before the knee.
 const std::vector<int> kParents = {-1, 0, 1, 2, 0, 4, 0};
 const std::vector<std::string> kNames = {"root", "hips", "thigh.L", "shin.L", "foot.L", "toe.L", "pole.L"};
-
-using Frame = Eigen::Isometry3d;
-
-Frame at(double y, double z, double angle = 0) {
-  return Eigen::Translation3d(0, y, z) * Eigen::AngleAxisd(angle, Vector3::UnitX());
-}
-
-void add_rows(const Frame& frame, std::vector<double>& values) {
-  const Eigen::Matrix<double, 4, 4, Eigen::RowMajor> rows = frame.matrix();
-  values.insert(values.end(), rows.data(), rows.data() + 16);
-}
 
 // A leg that swings by `angle` from its hips.
 std::vector<double> leg_pose(double angle) {

@@ -1,55 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "io/hanging.hpp"
 
-#include <Eigen/Geometry>
-#include <Eigen/LU>
 #include <algorithm>
 #include <limits>
 #include <numeric>
 
-#include "io/rigid_matrix.hpp"
+#include "io/straying.hpp"
 #include "skeleton/bone_names.hpp"
 
 namespace fragmotion {
 namespace {
 
 constexpr double kShare = 1.0 / 3;  // of what it goes as its parent sees it: feet of packs 0.02 to 0.21, others 1
-
-class Straying {
- public:
-  Straying(const double* poses, int frames, int bones) : poses_(poses), frames_(frames), bones_(bones) {}
-
-  // How far the head of a bone goes from frame to frame as another bone sees it, summed; -1: as the armature does.
-  double of(int bone, int from) const {
-    double sum = 0;
-    for (int f = 1; f < frames_; ++f) sum += (seen(f, bone, from) - seen(f - 1, bone, from)).norm();
-    return sum;
-  }
-
-  // The diagonal of the box that holds it.
-  double span(int bone, int from) const {
-    Eigen::AlignedBox3d box;
-    for (int f = 0; f < frames_; ++f) box.extend(seen(f, bone, from));
-    return box.isEmpty() ? 0 : box.diagonal().norm();
-  }
-
- private:
-  Vector3 seen(int frame, int bone, int from) const {
-    const Vector3 head = pose(frame, bone).topRightCorner<3, 1>();
-    return from < 0 ? head : local(pose(frame, from), head);
-  }
-
-  RowMajor pose(int frame, int bone) const {
-    return RowMajor(poses_ + 16 * (static_cast<std::size_t>(frame) * bones_ + bone));
-  }
-
-  static Vector3 local(const RowMajor& frame, const Vector3& point) {
-    return frame.topLeftCorner<3, 3>().inverse() * (point - frame.topRightCorner<3, 1>());
-  }
-
-  const double* poses_;
-  int frames_, bones_;
-};
 
 // Of bones beside each other that go together, as the trunk and the legs of a body without a bone that carries them
 // all, the one whose frame holds the others best: one that is no candidate, where none does so far better. `other`
