@@ -154,6 +154,59 @@ TEST(Mirror, MovesTheOtherHandWhereOneAloneMoves) {
   EXPECT_GT(load_quaternion(moved).angularDistance(load_quaternion(moved + width)), 0.01);
 }
 
+// The mean over a walk of a bone's orientation in the world and of its counterpart's mirror image: how far they are
+// apart.
+double off_its_image(const Skeleton& skeleton, const Clip& clip, int bone) {
+  const Kinematics kinematics(skeleton);
+  const Clip image = Mirror(kinematics, {clip})(clip);
+  std::vector<Vector3> heads(skeleton.size());
+  std::vector<Quaternion> own(skeleton.size()), mirrored(skeleton.size());
+  double sum = 0;
+  for (int f = 0; f < clip.frames; ++f) {
+    world(kinematics, clip, f, heads.data(), own.data());
+    world(kinematics, image, f, heads.data(), mirrored.data());
+    sum += own[bone].angularDistance(mirrored[bone]) / clip.frames;
+  }
+  return sum;
+}
+
+// A clip in all of which a bone is turned about its length.
+Clip rolled(const Skeleton& skeleton, Clip clip, int bone, double angle) {
+  for (int f = 0; f < clip.frames; ++f) {
+    double* rotation = &clip.rotations[4 * (static_cast<std::size_t>(f) * skeleton.size() + bone)];
+    const Quaternion roll{Eigen::AngleAxisd(angle, skeleton.tips[bone].normalized())};
+    store_quaternion(load_quaternion(rotation) * roll, rotation);
+  }
+  return clip;
+}
+
+TEST(Mirror, RollsABoneAsTheTakesDoThatRollItByHalfATurn) {
+  const Skeleton skeleton = humanoid();
+  for (const char* name : {"foot.L", "hand.R"}) {
+    const int bone = skeleton.find(name);
+    const auto off = [&](double angle) {
+      return off_its_image(skeleton, rolled(skeleton, gait_clip({}), bone, angle), bone);
+    };
+    EXPECT_NEAR(off(EIGEN_PI), off(0), 0.1) << name;
+    EXPECT_GT(off(1.4), 1.2) << name << " that a joint turns";
+  }
+}
+
+TEST(Mirror, RollsNoBoneThatCarriesAnotherBesideItsLength) {
+  std::vector<int> left;
+  const Skeleton skeleton = with_fingers_of_its_own(left);
+  const int hand = skeleton.parents[left[0]];
+  Skeleton wide = skeleton;
+  for (int b = 0; b < wide.size(); ++b) {
+    if (wide.parents[b] == hand || wide.parents[b] == mirror_bones(skeleton)[hand]) wide.offsets[b].y() = -0.08;
+  }
+  Clip still = random_clip(wide, 8, 5);
+  for (int i = 0; i < still.frames * wide.size(); ++i)
+    store_quaternion(wide.rest_rotations[i % wide.size()], &still.rotations[4 * static_cast<std::size_t>(i)]);
+  const Clip clip = make_clip(wide, rolled(wide, still, hand, EIGEN_PI));
+  EXPECT_LT(worst_reflection(Kinematics(wide), clip, Mirror(Kinematics(wide), {clip})(clip)), 1e-9);
+}
+
 TEST(Mirror, SwapsTheFeetOnTheGround) {
   const Kinematics kinematics(humanoid());
   for (const Clip& clip : gait_takes()) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "motion/mirror.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,6 +9,7 @@
 #include "base/decompositions.hpp"
 #include "motion/fingers.hpp"
 #include "motion/pose.hpp"
+#include "skeleton/role_map.hpp"
 
 namespace fragmotion {
 namespace {
@@ -42,12 +44,12 @@ std::vector<Matrix3> symmetric_rest(const Kinematics& kinematics, const std::vec
   return result;
 }
 
-// The mean world orientation of each bone over all frames, in the character frame.
-std::vector<Matrix3> mean_orientations(const Kinematics& kinematics, const std::vector<Clip>& clips) {
+// The mean world orientation of each bone over the frames that are looked at, in the character frame.
+std::vector<Matrix3> mean_orientations(const Kinematics& kinematics, const std::vector<Clip>& clips, int apart) {
   std::vector<Matrix3> sums(kinematics.bones(), Matrix3::Zero());
   Pose pose(kinematics.bones());
   for (const Clip& clip : clips) {
-    for (int f = 0; f < clip.frames; ++f) {
+    for (int f = 0; f < clip.frames; f += apart) {
       world(kinematics, clip, f, pose.heads.data(), pose.orientations.data());
       const Quaternion to_character = frame_at(clip, f).rotation().inverse();
       for (int b = 0; b < kinematics.bones(); ++b) sums[b] += (to_character * pose.orientations[b]).toRotationMatrix();
@@ -75,6 +77,29 @@ Matrix3 snapped_to_axes(const Matrix3& turn) {
   return best;
 }
 
+// What makes the reflection of a bone's counterpart, where each is oriented like this, a frame of the bone.
+Matrix3 turn_to_image(const std::vector<Matrix3>& orientations, const std::vector<int>& counterpart, int bone) {
+  return (kReflection * orientations[counterpart[bone]]).transpose() * orientations[bone];
+}
+
+Matrix3 half_roll(const Vector3& tip) { return Eigen::AngleAxisd(EIGEN_PI, tip.normalized()).toRotationMatrix(); }
+
+// Whether a bone is turned by about half a turn about its length. No joint of a body does so: its controls do, as where
+// the pole of a leg's IK is on the other side.
+bool is_rolled(const Matrix3& turn, const Vector3& tip) {
+  return tip.squaredNorm() > 0 && (half_roll(tip).transpose() * turn).trace() > kSnap;
+}
+
+// Whether a turn of a bone in its own frame moves a joint that hangs on it.
+bool moves_joint(const Skeleton& skeleton, int bone, const Matrix3& turn) {
+  const double tolerance = kSymmetric * stature(skeleton);
+  for (int b = bone + 1; b < skeleton.size(); ++b) {
+    const Vector3& offset = skeleton.offsets[b];
+    if (skeleton.parents[b] == bone && (turn * offset - offset).norm() > tolerance) return true;
+  }
+  return false;
+}
+
 // Those whose counterparts are still, too: where one hand alone moves, the other one moves in the mirror image.
 std::vector<int> both_still(const std::vector<int>& still, const std::vector<int>& counterpart) {
   std::vector<int> both;
@@ -90,12 +115,23 @@ Mirror::Mirror(const Kinematics& kinematics, const std::vector<Clip>& clips)
     : kinematics_(kinematics),
       counterpart_(mirror_bones(kinematics.skeleton())),
       still_(both_still(still_fingers(kinematics.skeleton(), clips), counterpart_)) {
-  std::vector<Matrix3> symmetric = symmetric_rest(kinematics, counterpart_);
-  const bool by_rest = !symmetric.empty();
-  if (!by_rest) symmetric = mean_orientations(kinematics, clips);
+  const Skeleton& skeleton = kinematics.skeleton();
+  const std::vector<Matrix3> rest = symmetric_rest(kinematics, counterpart_);
+  int frames = 0;
+  for (const Clip& clip : clips) frames += clip.frames;
+  const int apart = rest.empty() ? 1 : frames_between_looks(frames);
+  const std::vector<Matrix3> mean = mean_orientations(kinematics, clips, apart);
   for (int b = 0; b < kinematics.bones(); ++b) {
-    const Matrix3 turn = (kReflection * symmetric[counterpart_[b]]).transpose() * symmetric[b];
-    turn_.push_back(by_rest ? turn : snapped_to_axes(turn));
+    const Matrix3 by_mean = turn_to_image(mean, counterpart_, b);
+    if (rest.empty()) {
+      turn_.push_back(snapped_to_axes(by_mean));
+      continue;
+    }
+    turn_.push_back(turn_to_image(rest, counterpart_, b));
+    const bool may_roll = counterpart_[b] != b && frames > 0;
+    if (may_roll && is_rolled(turn_[b].transpose() * by_mean, skeleton.tips[b]) &&
+        !moves_joint(skeleton, b, half_roll(skeleton.tips[b])))
+      turn_[b] = turn_[b] * half_roll(skeleton.tips[b]);
   }
 }
 

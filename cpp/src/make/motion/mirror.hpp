@@ -16,7 +16,8 @@ struct MirrorTurns {
 
 /// Turns a motion into its mirror image, left for right. Each bone's frame is reflected and then turned by a constant
 /// that makes it a frame of its counterpart: told by the rest pose where that is symmetric, else by the takes' mean
-/// pose, which gait makes symmetric. Fingers that no take moves are no part of the motion: they stay as they are.
+/// pose, which gait makes symmetric, as is a bone that the takes roll by half a turn on one side. Fingers that no take
+/// moves are no part of the motion: they stay as they are.
 class Mirror {
  public:
   Mirror(const Kinematics& kinematics, const std::vector<Clip>& clips);
