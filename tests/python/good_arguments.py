@@ -113,6 +113,12 @@ def good_arguments(folder: Path) -> dict[str, dict[str, Any]]:
             "poses": np.tile(upright, (2, 1, 1, 1)),
             "candidates": [1],
         },
+        "find_joints": {
+            "names": NAMES,
+            "parents": PARENTS,
+            "poses": np.tile(upright, (2, 1, 1, 1)),
+            "bearing": [0, 1],
+        },
         "span_beside": {"poses": np.tile(upright, (2, 1, 1, 1)), "bone": 1, "other": 0},
         "Skeleton.relaxed_pose": {"self": skeleton},
         "Skeleton.role_map": {
