@@ -15,7 +15,7 @@ from ..compat import versions
 from ..compat.core import core
 from . import posing
 from .mesh_bones import bones_beside_names, hang_by_motion
-from .rigs import bone_path, carriers, hanging_of, is_tied, make_rig
+from .rigs import FEET, bone_path, carriers, hanging_of, is_tied, make_rig
 
 if TYPE_CHECKING:
     from fragmotion_core import Doubles, Rig
@@ -144,7 +144,8 @@ def _say(obj: bpy.types.Object, rig: Rig, ways: Mapping[str, float]) -> list[str
 
 
 def _say_mesh(obj: bpy.types.Object, of_mesh: Sequence[str]) -> str:
-    foot = make_rig(obj, roles={}).skeleton.roles["left_foot"]
+    roles = make_rig(obj, roles={}).skeleton.roles
+    foot = next(roles[role] for role in FEET if role in roles)
     return (
         f"Learned, and baked, are the {len(of_mesh)} bones that the mesh follows, as they move with each other: of the "
         f"legs that names tell ('{foot}') it follows none"
