@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 #include "base/random.hpp"
@@ -22,7 +23,7 @@ TEST(CommandLimit, GetsToTheCommandWithTheAccelerationAndStaysThere) {
     const Control now = limit.after(run, 0.7, 1.0 / 60);
     const Vector2 acceleration = limit.advance(run, 0.7, 1.0 / 60);
     EXPECT_NEAR(acceleration.y(), f <= 36 ? 5 : 0, 1e-9) << f;
-    EXPECT_NEAR(acceleration.x(), 0, 1e-9);
+    EXPECT_NEAR(acceleration.x(), kTurnRate * std::min(3.0, 5 * (f - 1) / 60.0), 1e-9) << "to the right, as it turns";
     EXPECT_NEAR(now.y, std::min(3.0, 5 * f / 60.0), 1e-9);
     EXPECT_NEAR(now.x, 0, 1e-9);
     EXPECT_NEAR((limit.velocity(0.7) - velocity(now)).norm(), 0, 1e-9);
@@ -45,6 +46,17 @@ TEST(CommandLimit, NeverChangesTheVelocityInTheWorldFaster) {
     limit.advance(control, heading, seconds);
     EXPECT_LE((now - before).norm(), 5 * seconds + 1e-9);
     before = now;
+  }
+}
+
+TEST(CommandLimit, IsNotAcceleratedByHowABodySways) {
+  CommandLimit limit(5, kTurnRate);
+  const Control held{0.5, 1, 0, 0};
+  limit.reset(0, velocity(held));
+  for (int f = 1; f < 200; ++f) {
+    const double heading = 0.1 * std::sin(0.1 * f);
+    limit.face(heading);
+    EXPECT_NEAR(limit.advance(held, heading, 1.0 / 60).norm(), 0, 1e-9) << f;
   }
 }
 

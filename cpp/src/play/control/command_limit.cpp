@@ -7,11 +7,12 @@
 namespace fragmotion {
 
 void CommandLimit::reset(double heading, const Vector2& velocity) {
-  velocity_ = velocity;
+  velocity_ = before_ = velocity;
   heading_ = heading;
 }
 
 void CommandLimit::face(double heading) {
+  before_ = velocity_;
   velocity_ = velocity(heading);
   heading_ = heading;
 }
@@ -41,11 +42,11 @@ Control CommandLimit::limited(const Control& given, const Vector2& going, double
 }
 
 Vector2 CommandLimit::advance(const Control& control, double heading, double seconds) {
-  const Vector2 going = velocity(heading);
-  const Control now = limited(control, going, seconds);
-  velocity_ = {now.x, now.y};
+  const Control now = limited(control, velocity(heading), seconds);
+  const Vector2 faster = Vector2{now.x, now.y} - before_, aside{-before_.y(), before_.x()};
+  velocity_ = before_ = {now.x, now.y};
   heading_ = heading;
-  return (velocity_ - going) / seconds;
+  return faster / seconds + turn_rate_ * control.turn * aside;
 }
 
 }  // namespace fragmotion

@@ -26,7 +26,8 @@ class CommandLimit {
   Vector2 velocity(double heading) const;
   /// What the control becomes `seconds` from the last advance(), of a body that faces `heading` then.
   Control after(const Control& control, double heading, double seconds) const;
-  /// Goes so far. Returns the acceleration of the command, m/s^2 in the character frame.
+  /// Goes so far. Returns the acceleration of the command, m/s^2 in the character frame, of a body that turns as it
+  /// says: how the heading sways about that in each stride is none.
   Vector2 advance(const Control& control, double heading, double seconds);
 
  private:
@@ -38,6 +39,7 @@ class CommandLimit {
   double acceleration_, turn_rate_;
   Vector2 velocity_ = Vector2::Zero();  // m/s, in the character frame
   double heading_ = 0;                  // of that frame, rad
+  Vector2 before_ = Vector2::Zero();    // the velocity, as a body that turned as asked would still see it
 };
 
 }  // namespace fragmotion

@@ -26,7 +26,7 @@ void Lean::apply(const Skeleton& skeleton, WorldPose& pose, const Vector2& accel
   pushed_ += part * (wanted - pushed_);
   acceleration_ += part * (pushed_ - acceleration_);
   const double strength = acceleration_.norm();
-  if (strength < kRounding || trunk_.base < 0) return;
+  if (strength < kFloatRounding || trunk_.base < 0) return;
   const Vector2 lean = constants_.share * std::atan(strength / kGravity) / strength * acceleration_;
   lean_by(skeleton, lean, facing, pose.rotations.data());
 }

@@ -42,16 +42,19 @@ void LookStitch::begin(const WorldPose& old, const WorldPose& old_later, const W
   const std::array poses{&old, &old_later, &fresh, &fresh_later};
   const Quaternion to_frame = to_frame_of(fresh);
   for (std::size_t i = 0; i < looks.size(); ++i) see(poses[i]->rotations, to_frame, looks[i]);
-  const double fades = body.constants().fades;
-  damping_ = fades / seconds;
-  for (std::size_t i = 0; i < workspace_->look.size(); ++i) {
+  const auto offset = [&](std::size_t i) {
     const auto rotation = [&](int pose) { return &looks[pose].rotations[4 * i]; };
-    const TurnOffset offset = turn_offset(rotation(0), rotation(1), rotation(2), rotation(3), apart);
+    return turn_offset(rotation(0), rotation(1), rotation(2), rotation(3), apart);
+  };
+  const double fades = body.constants().fades, usual = fades / seconds;
+  damping_ = usual;
+  for (std::size_t i = 0; i < workspace_->look.size(); ++i) {
     const double most = std::max(0.0, (kTurnsAtMost - 1) * workspace_->fastest_looks[i] - std::abs(turning));
-    damping_ = std::min(damping_, most / (std::exp(-1.0) * 4 * std::atan(offset.turn.norm())));
-    body.keep(clip.lane_of(workspace_->look[i]), offset);
+    damping_ = std::min(damping_, most / (std::exp(-1.0) * 4 * std::atan(offset(i).turn.norm())));
   }
+  if (damping_ == usual) return clear();
   damping_ = std::max(damping_, fades / std::max(kSlowestStitch, seconds));
+  for (std::size_t i = 0; i < workspace_->look.size(); ++i) body.keep(clip.lane_of(workspace_->look[i]), offset(i));
 }
 
 bool LookStitch::active(double time, const Inertialization& body) const {
