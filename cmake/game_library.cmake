@@ -11,7 +11,7 @@ list(TRANSFORM fragmotion_exported REPLACE ".*[ *\n](fragmotion_[a-z_]+)[(]" "\\
 # are heads and hands that look and reach: a third of the time, four fifths of the size.
 set(fragmotion_small ${fragmotion_runtime_sources})
 set(fragmotion_small_stages "(base|skeleton|control|fragments|classes|policy|character|direct|api)/[a-z_]+")
-set(fragmotion_small_files "motion/(clip|contacts|facing|foot_paths|take)|runtime/(crowd|director|gaze|move_track|player|player_(constants|making|moves|styles)|reaching|step_sequence|upper_body|workspace)")
+set(fragmotion_small_files "motion/(clip|contacts|facing|foot_paths|take)|runtime/(crowd|director|gaze|held_gaits|move_track|player|player_(constants|making|moves|styles)|reaching|step_sequence|upper_body|workspace)")
 list(FILTER fragmotion_small INCLUDE REGEX "/(${fragmotion_small_stages}|${fragmotion_small_files})[.]cpp$")
 list(FILTER fragmotion_small EXCLUDE REGEX "/(kinematics|two_bone_ik|control|body_tips|hips_velocity|player_pose)[.]cpp$")
 set(fragmotion_fast ${fragmotion_runtime_sources})

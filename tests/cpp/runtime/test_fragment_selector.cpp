@@ -90,7 +90,7 @@ TEST(FragmentSelector, ChoosesMembersThatCostNearlyAsLittleAsAnyByTheStatedEquat
       }
       for (const auto& [cost, member] : costs) least = std::min(least, cost);
       EXPECT_LE(stated_cost(choice, ends, chosen, control), least + TransitionWeights{}.variety + 1e-4);
-      EXPECT_NEAR(choice.selector.cost_of_leaving(k, control, choice.playback).whole, least, 1e-4);
+      EXPECT_NEAR(choice.selector.cost_of_leaving({k, -1}, control, choice.playback).whole, least, 1e-4);
       std::set<int> drawn;
       for (int draw = 0; draw < kDraws; ++draw) drawn.insert(choice.selector.choose(k, control, choice.playback));
       for (const auto& [cost, member] : costs) {
@@ -321,24 +321,6 @@ TEST(FragmentSelector, GoesOnInTheTakeWhereThatJumpsGoesAndStopsAsAsked) {
   EXPECT_GT(goes_on_without_a_stick, 20);
   EXPECT_GT(stays, 20);
   EXPECT_GT(leaves, stays);
-}
-
-// What is foretold of a fragment's end is what is measured there.
-TEST(FragmentSelector, ForetellsWhatLeavingAFragmentAtItsEndCosts) {
-  Choice choice(1);
-  const Character& c = *choice.character;
-  for (int fragment = 0; fragment < static_cast<int>(c.pool.fragments.size()); fragment += 17) {
-    choice.playback.reset(fragment, {});
-    StepSequence steps = choice.playback.steps();
-    const double rate = c.pool.clips[choice.playback.fragment().clip].rate;
-    const int frames = choice.playback.fragment().last_played() - choice.playback.fragment().first_played();
-    for (int frame = 0; frame < frames; ++frame) choice.playback.advance(1 / rate);
-    for (int k = 0; k < c.classes.count; k += 5) {
-      const Control& control = c.pool.fragments[c.classes.representatives[k]].evident;
-      EXPECT_NEAR(choice.selector.cost_of_leaving(k, control, fragment, steps).whole,
-                  choice.selector.cost_of_leaving(k, control, choice.playback).whole, 1e-4);
-    }
-  }
 }
 
 TEST(FragmentSelector, GoesOnWithNoClassThatIsLeftOut) {

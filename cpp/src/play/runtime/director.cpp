@@ -149,26 +149,22 @@ bool Director::is_due(const Control& control, bool changes, const Playback& play
          leaves_early(wanted(control), changes, playback, selector);
 }
 
-// What plays for the time of two fragments is compared: the take's next one and then the one after it, or what the end
-// of that is left for, with a class that is entered now and goes on in its own take. So the end of a take is no reason
-// to follow it: it is left now where that joins better than after its next fragment.
+// What plays for the time of two fragments is compared: the take's next one and then the one after it, with what the
+// policy tells or the gait of the control, which is entered now and goes on in its own take. The last fragment of a
+// take leads to nothing: it is not gone on with.
 int Director::continuation(const Control& control, const Playback& playback, const FragmentSelector& selector) const {
   if (makes_way(playback) || playback.left() > kRounding) return -1;
   const Control wanted = this->wanted(control);
   const int found = selector.successor(playback.number(), wanted);
-  if (found < 0) return -1;
+  if (found < 0 && !plans_) return -1;
   const int next = waiting_ >= 0 && !has_changed(wanted) ? waiting_ : look_up_class(class_, wanted);
-  const float staying = selector.cost_of_going_on(found, wanted);
+  const float staying = found < 0 ? FragmentSelector::kAny : selector.cost_of_going_on(found, wanted);
   if (!plans_) return staying <= selector.usual_cost(class_, next, wanted) ? found : -1;
-  const int entered = selector.class_of(found), after = look_up_class(entered, wanted);
-  if (bridge_between(entered, after) >= 0 || !selector.goes_as_asked(after, wanted)) return -1;
-  const int second = selector.successor(found, wanted);
+  const int second = found < 0 ? -1 : selector.successor(found, wanted), gait = selector.gait_beside(found, wanted);
   const float going_on = second < 0 ? FragmentSelector::kAny : staying + selector.cost_of_going_on(second, wanted);
-  const Cost left = selector.cost_of_leaving(next, wanted, playback, going_on);
-  const float leaving = left.whole + left.performing;
-  if (second >= 0 && going_on <= leaving) return found;
-  if (staying > leaving) return -1;
-  return staying + selector.cost_of_leaving(after, wanted, found, playback.steps()).whole <= leaving ? found : -1;
+  const Cost left = selector.cost_of_leaving({next, gait}, wanted, playback, going_on);
+  if (left.fragment < 0) return found;
+  return left.of_class == gait ? left.fragment : -1;
 }
 
 int Director::decide(const Control& control, const Playback& playback, const FragmentSelector& selector) {

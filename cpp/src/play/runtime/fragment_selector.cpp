@@ -43,29 +43,17 @@ void FragmentSelector::extrapolate(const Playback& playback) const {
   extrapolate(pose_tips(playback, playback.seconds(), now), before, now);
 }
 
-// The same, of a fragment's end in its take.
-void FragmentSelector::extrapolate_end(const Fragment& fragment) const {
-  auto& [before, now, unused] = workspace_->tips;
-  const PackedClip& clip = style_->character->pool.clips[fragment.clip];
-  double* rotations = workspace_->poses[0].rotations.data();
-  const double end = fragment.last_played();
-  before.pose(workspace_->unpacked.sample(clip, end - kEntry * clip.rate, {}, rotations).place, rotations);
-  const RootPose root = workspace_->unpacked.sample(clip, end, {}, rotations);
-  now.pose(root.place, rotations);
-  extrapolate(root.frame(), before, now);
-}
-
 // Finds what is known of the members' costs before they are joined, which is infinite of those that may not be played:
 // where the representative jumps, or does not, as is wanted, or answers a control that asks for motion, they do so too.
 void FragmentSelector::find_candidates(int next_class, const Control& control, const Left& left,
                                        Candidates& candidates) const {
   const Character& c = *style_->character;
-  const Control& usually = c.pool.fragments[c.classes.representatives[next_class]].evident;
+  const Entrants& entrants = style_->members[next_class];
+  const Control& usually = c.pool.fragments[entrants.representative].evident;
   const auto of_left = static_cast<std::size_t>(left.fragment.clip);
   const bool is_here = of_left < c.contacts.size() && &left.contacts == &c.contacts[of_left];  // not of another style
   const Entry entry{control, left.fragment.origin == Origin::mirrored, is_here ? left.fragment.clip : -1,
                     matches_jump(usually, control), c.space.asks_to_go(control) && answers(usually, control)};
-  const Entrants& entrants = style_->members[next_class];
   float* costs = candidates.costs.data();
   style_->cost.of_entering(entrants, entry, workspace_->entering.data(), costs);
   candidates.best = first_of_least(costs, entrants.stride);
@@ -95,7 +83,7 @@ float FragmentSelector::least_cost(int next_class, const Control& evident, const
   const TransitionCost& cost = style_->cost;
   const Entrants& entrants = style_->members[next_class];
   const bool went = is_moving(evident);
-  const float usual = distance(style_->character->classes.representatives[next_class]);
+  const float usual = distance(entrants.representative);
   const auto look = [&](int member) {
     const float known = candidates.costs[member], nearest = std::max(0.0F, usual - entrants.beside_usual(member));
     if (known + cost.of_joining(nearest, 0) >= most) return;
@@ -115,53 +103,38 @@ float FragmentSelector::least_cost(int next_class, const Control& evident, const
   return most;
 }
 
-bool FragmentSelector::goes_as_asked(int of_class, const Control& control) const {
-  const Character& c = *style_->character;
-  return !c.space.asks_to_go(control) ||
-         answers(c.pool.fragments[c.classes.representatives[of_class]].evident, control);
-}
-
 int FragmentSelector::successor(int fragment, const Control& control) const {
   const int next = style_->successors[fragment];
-  if (next < 0) return -1;
+  return next >= 0 && style_->cost.may_go_on(next, control) ? next : -1;
+}
+
+int FragmentSelector::gait_beside(int fragment, const Control& control) const {
   const Character& c = *style_->character;
-  const Quality& quality = c.quality;
-  const Control& evident = c.pool.fragments[next].evident;
-  const bool is_excluded =
-      quality.match[static_cast<std::size_t>(class_of(next)) * quality.controls + c.space.nearest(control)] == 0;
-  const bool stands = !is_moving(evident) || style_->cost.slows_down(next),
-             as_asked = c.space.asks_to_go(control) ? answers(evident, control) : stands;
-  return !is_excluded && as_asked && matches_jump(evident, control) ? next : -1;
+  const int gait = c.classes.count + c.space.nearest(control);
+  const Entrants& entrants = style_->members[gait];
+  bool is_other = entrants.count > 0;
+  for (int i = 0; i < entrants.count; ++i) is_other = is_other && entrants.fragment(i) != fragment;
+  return is_other ? gait : -1;
 }
 
 // What is known of the costs tells often enough, without a pose.
-Cost FragmentSelector::cost_of_leaving(int next_class, const Control& control, const Playback& playback,
-                                       float enough) const {
+Cost FragmentSelector::cost_of_leaving(const std::array<int, 2>& classes, const Control& control,
+                                       const Playback& playback, float enough) const {
+  Cost least{enough, 0, -1};
   Candidates& candidates = workspace_->candidates[0];
-  find_candidates(next_class, control, {playback.fragment(), playback.contacts()}, candidates);
-  const float known = candidates.costs[candidates.best];
-  if (known >= enough) return {known, 0};
-  extrapolate(playback);
-  return least_cost(next_class, control, playback.evident(), playback.steps());
-}
-
-Cost FragmentSelector::cost_of_leaving(int next_class, const Control& control, int fragment, StepSequence steps) const {
-  const Character& c = *style_->character;
-  const Fragment& f = c.pool.fragments[fragment];
-  const Contacts& contacts = c.contacts[f.clip];
-  for (int frame = f.first_played(); frame < f.last_played(); ++frame) {
-    steps.advance(standing_feet(contacts, frame + 1), 1 / c.pool.clips[f.clip].rate);
+  bool posed = false;
+  for (const int each : classes) {
+    if (each < 0) continue;
+    find_candidates(each, control, {playback.fragment(), playback.contacts()}, candidates);
+    if (candidates.costs[candidates.best] >= least.both()) continue;
+    if (!posed) extrapolate(playback);
+    posed = true;
+    const float whole = least_cost(each, playback.evident(), playback.steps(), candidates, least.both());
+    const int fragment = style_->members[each].fragment(candidates.best), then = successor(fragment, control);
+    const Cost cost{whole, then < 0 ? whole : cost_of_going_on(then, control), fragment, each};
+    if (cost.both() < least.both()) least = cost;
   }
-  extrapolate_end(f);
-  find_candidates(next_class, control, {f, contacts}, workspace_->candidates[0]);
-  return least_cost(next_class, control, f.evident, steps);
-}
-
-Cost FragmentSelector::least_cost(int next_class, const Control& control, const Control& evident,
-                                  const StepSequence& steps) const {
-  Candidates& candidates = workspace_->candidates[0];
-  const float whole = least_cost(next_class, evident, steps, candidates, kAny);
-  return {whole, style_->cost.of_going_on(style_->members[next_class].fragment(candidates.best), control)};
+  return least;
 }
 
 float FragmentSelector::usual_cost(int of_class, int next_class, const Control& control) const {
@@ -171,14 +144,14 @@ float FragmentSelector::usual_cost(int of_class, int next_class, const Control& 
          style_->cost.of_going_on(c.classes.representatives[next_class], control);
 }
 
-int FragmentSelector::choose(int next_class, const Control& control, const Playback& playback, bool posed) {
+[[gnu::cold]] int FragmentSelector::choose(int next_class, const Control& control, const Playback& playback, bool posed) {
   Candidates& candidates = workspace_->candidates[0];
   find_candidates(next_class, control, {playback.fragment(), playback.contacts()}, candidates);
   if (posed) extrapolate(playback);
   const auto variety = static_cast<float>(weights().variety);
   const bool went = is_moving(playback.evident());
-  const float usual = posed ? distance(style_->character->classes.representatives[next_class]) : 0;
   const Entrants& entrants = style_->members[next_class];
+  const float usual = posed ? distance(entrants.representative) : 0;
   const auto feet_of = [&](int member) { return out_of_turn(entrants, member, went, playback.steps()); };
   const int best = candidates.best;
   const float most = posed ? kAny : candidates.costs[best] + style_->cost.of_joining(0, feet_of(best)) + variety;

@@ -16,10 +16,14 @@ struct Exit {
   double cost = 0;      ///< TransitionCost, waiting included.
 };
 
-/// What it costs to play a member of a class.
+/// What it costs to play a member of a class or of a gait.
 struct Cost {
-  float whole = 0;       ///< TransitionCost of the one for which it is least, and
-  float performing = 0;  ///< of it what would go on with it.
+  float whole = 0;    ///< TransitionCost of the one for which it is least,
+  float then = 0;     ///< and of what follows it: its successor or, where there is none, as much again.
+  int fragment = -1;  ///< That one, and
+  int of_class = -1;  ///< of which class or gait it is played.
+
+  float both() const { return whole + then; }
 };
 
 /// Chooses the member of a class that is played: at random (Sec. 3.1) among those that cost nearly as little as any
@@ -45,8 +49,8 @@ class FragmentSelector {
   float cost_of_going_on(int fragment, const Control& control) const {
     return style_->cost.of_going_on(fragment, control);
   }
-  /// Whether a class answers() a control, if that asks for motion.
-  bool goes_as_asked(int of_class, const Control& control) const;
+  /// The gait of a control, by a number as of a class; -1: there is none, or the fragment is of it.
+  int gait_beside(int fragment, const Control& control) const;
   /// The class of a fragment.
   int class_of(int fragment) const { return style_->character->classes.labels[fragment]; }
   /// The member to play after what plays now: as it joins on to that, or, where it is not `posed`, as its class does.
@@ -56,10 +60,10 @@ class FragmentSelector {
 
   /// The class to enter, in the shown pose, after what was no fragment: of the greatest Eq. 2 for the control.
   int best_class(const Control& control, const Playback& playback) const;
-  /// What it costs to play a class after what is shown; or, where that is no less than `enough`, anything between.
-  Cost cost_of_leaving(int next_class, const Control& control, const Playback& playback, float enough = kAny) const;
-  /// The same after a fragment that is played to its end, which begins after these steps.
-  Cost cost_of_leaving(int next_class, const Control& control, int fragment, StepSequence steps) const;
+  /// What it costs to play a class after what is shown: the least of these, with what follows, if that is less than
+  /// `enough`; else no fragment.
+  Cost cost_of_leaving(const std::array<int, 2>& classes, const Control& control, const Playback& playback,
+                       float enough = kAny) const;
   /// What it costs that a class's representative follows that of another (Eq. 2).
   float usual_cost(int of_class, int next_class, const Control& control) const;
   /// What it costs to join a move on to what is shown.
@@ -83,14 +87,12 @@ class FragmentSelector {
   CharacterFrame pose_tips(const Playback& playback, double seconds, BodyTips& tips) const;
   void extrapolate(const CharacterFrame& frame, const BodyTips& before, const BodyTips& now) const;
   void extrapolate(const Playback& playback) const;
-  void extrapolate_end(const Fragment& fragment) const;
   bool is_moving(const Control& evident) const;
   void find_candidates(int next_class, const Control& control, const Left& left, Candidates& candidates) const;
   float distance(int fragment) const;
   int out_of_turn(const Entrants& entrants, int member, bool went, const StepSequence& steps) const;
   float least_cost(int next_class, const Control& evident, const StepSequence& steps, Candidates& candidates,
                    float most) const;
-  Cost least_cost(int next_class, const Control& control, const Control& evident, const StepSequence& steps) const;
 
   Workspace* workspace_;
   const FragmentLists* style_;  // that is chosen from

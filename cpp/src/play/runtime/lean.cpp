@@ -13,7 +13,7 @@ Quaternion about(const Vector3& axis, const PlaneTurn& half) {
 }
 
 // Turns what hangs on a bone that is turned like that by so much in the world.
-[[gnu::always_inline]] inline void turn_on(const Quaternion& above, const Quaternion& turn, double* local) {
+[[gnu::noinline]] void turn_on(const Quaternion& above, const Quaternion& turn, double* local) {
   const Vector3 seen = turned(above.conjugate(), turn.vec());
   store_quaternion(product({turn.w(), seen.x(), seen.y(), seen.z()}, load_quaternion(local)), local);
 }

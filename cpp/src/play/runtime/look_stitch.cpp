@@ -34,9 +34,9 @@ void LookStitch::see(const std::vector<double>& rotations, const Quaternion& aft
 }
 
 // An offset fades exp(-1) times its damping as fast at its fastest.
-void LookStitch::begin(const WorldPose& old, const WorldPose& old_later, const WorldPose& fresh,
-                       const WorldPose& fresh_later, double apart, double seconds, double turning,
-                       const PackedClip& clip, Inertialization& body) {
+[[gnu::cold]] void LookStitch::begin(const WorldPose& old, const WorldPose& old_later, const WorldPose& fresh,
+                                     const WorldPose& fresh_later, double apart, double seconds, double turning,
+                                     const PackedClip& clip, Inertialization& body) {
   if (workspace_->look.empty()) return;
   auto& looks = workspace_->looks;
   const std::array poses{&old, &old_later, &fresh, &fresh_later};

@@ -32,7 +32,7 @@ Control Player::wanted(const Control& control) const {
 double Player::cost_of_style(int style, const Control& wanted) const {
   FragmentSelector there = selector_;
   there.change_style(style);
-  return there.cost_of_leaving(there.best_class(wanted, playback_), wanted, playback_).whole;
+  return there.cost_of_leaving({there.best_class(wanted, playback_), -1}, wanted, playback_).whole;
 }
 
 bool Player::can_change_style() const { return playback_.has_landed() && is_stitched(); }

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/vectorised.hpp"
+#include "motion/contacts.hpp"
 #include "policy/answer.hpp"
 
 namespace fragmotion {
@@ -34,8 +35,17 @@ constexpr double kStep = 0.4;  // s
   }
 }
 
-bool TransitionCost::slows_down(int fragment) const {
-  return ends_[fragment].last.norm() <= ends_[fragment].first.norm() / 2;
+bool TransitionCost::may_go_on(int fragment, const Control& control) const {
+  const Character& c = *character_;
+  const Control& evident = c.pool.fragments[fragment].evident;
+  const auto stands = [&] {
+    const bool slows_down = ends_[fragment].last.norm() <= ends_[fragment].first.norm() / 2;
+    return slows_down || evident.speed() * c.space.scale() <= kMoving;
+  };
+  if (!(c.space.asks_to_go(control) ? answers(evident, control) : stands())) return false;
+  const bool is_excluded =
+      c.quality.match[static_cast<std::size_t>(c.classes.labels[fragment]) * c.quality.controls] == 0;
+  return !is_excluded && matches_jump(evident, control);
 }
 
 double TransitionCost::strays(int fragment, const Control& control) const {
@@ -49,35 +59,41 @@ float TransitionCost::of_going_on(int fragment, const Control& control) const {
   return of_performing(evident, made_[fragment], control) + unsteady_ * static_cast<float>(strays(fragment, control));
 }
 
-[[gnu::cold]] std::vector<Entrants> TransitionCost::entrants() const {
+// The tip_distance() between the beginnings of two fragments.
+float TransitionCost::beside(int fragment, int other) const {
   const Character& c = *character_;
   const std::size_t row = c.entry_poses.size() / c.pool.fragments.size();
-  const auto entry = [&](int fragment) { return c.entry_poses.data() + row * fragment; };
-  const std::vector<std::vector<int>> members = c.classes.members();
-  std::vector<Entrants> all(members.size());
-  for (std::size_t k = 0; k < all.size(); ++k) {
-    Entrants& e = all[k];
-    e.count = static_cast<int>(members[k].size());
-    e.stride = padded(e.count);
-    e.numbers = std::vector<int>(std::size_t{3} * e.stride);
-    e.costs = std::vector<float>(std::size_t{3} * e.stride, std::numeric_limits<float>::infinity());
-    e.evidents = std::vector<double>(std::size_t{4} * e.stride);
-    for (int i = 0; i < e.count; ++i) {
-      const int fragment = members[k][i];
-      const Fragment& f = c.pool.fragments[fragment];
-      int* number = &e.numbers[i];
-      for (const int value : {fragment, f.clip, f.origin == Origin::mirrored ? 1 : 0})
-        *number = value, number += e.stride;
-      const float beside =
-          tip_distance(entry(fragment), entry(c.classes.representatives[k]), static_cast<int>(row) / 3);
-      float* cost = &e.costs[i];
-      for (const float value : {made_[fragment], entered_[fragment], beside}) *cost = value, cost += e.stride;
-      double* evident = &e.evidents[i];
-      for (const double value : {f.evident.x, f.evident.y, f.evident.turn, f.evident.jump})
-        *evident = value, evident += e.stride;
-    }
+  const float* entries = c.entry_poses.data();
+  return tip_distance(entries + row * fragment, entries + row * other, static_cast<int>(row) / 3);
+}
+
+float TransitionCost::of_closing(int next, int fragment, double seconds) const {
+  if (next == fragment) return 0;
+  return static_cast<float>(kStep / seconds) * (entered_[fragment] + of_joining(beside(next, fragment), 0));
+}
+
+[[gnu::cold]] Entrants TransitionCost::entrants(const std::vector<int>& members, int representative) const {
+  Entrants e;
+  e.count = static_cast<int>(members.size());
+  e.stride = padded(e.count);
+  e.representative = representative;
+  e.numbers = std::vector<int>(std::size_t{3} * e.stride);
+  e.costs = std::vector<float>(std::size_t{3} * e.stride, std::numeric_limits<float>::infinity());
+  e.evidents = std::vector<double>(std::size_t{4} * e.stride);
+  for (int i = 0; i < e.count; ++i) {
+    const int fragment = members[i];
+    const Fragment& f = character_->pool.fragments[fragment];
+    int* number = &e.numbers[i];
+    for (const int value : {fragment, f.clip, f.origin == Origin::mirrored ? 1 : 0})
+      *number = value, number += e.stride;
+    float* cost = &e.costs[i];
+    for (const float value : {made_[fragment], entered_[fragment], beside(fragment, representative)})
+      *cost = value, cost += e.stride;
+    double* evident = &e.evidents[i];
+    for (const double value : {f.evident.x, f.evident.y, f.evident.turn, f.evident.jump})
+      *evident = value, evident += e.stride;
   }
-  return all;
+  return e;
 }
 
 FRAGMOTION_VECTORISED void TransitionCost::of_entering(const Entrants& entrants, const Entry& entry,

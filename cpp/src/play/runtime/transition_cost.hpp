@@ -12,10 +12,10 @@
 
 namespace fragmotion {
 
-/// The members of a class, and what their costs are told by, each beside the others': they are told together. Rows are
-/// padded to whole blocks of kLanes, with what costs infinitely much.
+/// The members of a class or of a gait, and what their costs are told by, each beside the others': they are told
+/// together. Rows are padded to whole blocks of kLanes, with what costs infinitely much.
 struct Entrants {
-  int count = 0, stride = 0;
+  int count = 0, stride = 0, representative = -1;
   std::vector<int> numbers;      ///< [3, stride]: fragments, clips, and 1 where it is a mirror image
   std::vector<float> costs;      ///< [3, stride]: of perform() and of enter() what no control tells, and beside_usual()
   std::vector<double> evidents;  ///< [4, stride]: x, y, turn and jump
@@ -61,12 +61,19 @@ class TransitionCost {
   /// The character, in one of its styles, must outlive it.
   TransitionCost(const Character& character, const TransitionWeights& weights);
 
-  /// Whether a fragment ends at half the speed at which it begins, or less.
-  bool slows_down(int fragment) const;
+  /// Whether the take may go on with a fragment under a control: the policy may play it, and it jumps or does not, and
+  /// goes, or stands or brakes, as asked.
+  bool may_go_on(int fragment, const Control& control) const;
   /// Of going on with a fragment as the successor under a control.
   float of_going_on(int fragment, const Control& control) const;
-  /// The members of each class.
-  std::vector<Entrants> entrants() const;
+  /// perform() of what begins with a fragment and is evident of this.
+  float of_performing(const Control& evident, int fragment, const Control& control) const {
+    return of_performing(evident, made_[fragment], control);
+  }
+  /// A step, of entering a fragment where one of its take would go on, every so many seconds.
+  float of_closing(int next, int fragment, double seconds) const;
+  /// Of which one is the representative.
+  Entrants entrants(const std::vector<int>& members, int representative) const;
   /// Writes perform() + enter() of each, infinite where it may not be entered, to a row of costs; in another it works.
   void of_entering(const Entrants& entrants, const Entry& entry, double* __restrict apart,
                    float* __restrict costs) const;
@@ -85,6 +92,7 @@ class TransitionCost {
            bent_ * static_cast<float>(std::abs(evident.turn - control.turn)) + made;
   }
   double strays(int fragment, const Control& control) const;
+  float beside(int fragment, int other) const;
 
   const Character* character_;
   std::vector<EndVelocities> ends_;

@@ -7,6 +7,7 @@
 #include "fragments/entry_poses.hpp"
 #include "fragments/look.hpp"
 #include "fragments/successors.hpp"
+#include "runtime/held_gaits.hpp"
 
 namespace fragmotion {
 Workspace::Workspace(const Character& character, const PlayerConstants& constants)
@@ -29,9 +30,15 @@ Workspace::Workspace(const Character& character, const PlayerConstants& constant
   for (int style = 0; style < character.style_count(); ++style) {
     const Character& c = character.in_style(style);
     TransitionCost cost(c, constants.transition);
-    std::vector<Entrants> members = cost.entrants();
     std::vector<int> next = successors(c.pool.fragments);
     std::vector<EntrySteps> steps = entry_steps(c, next);
+    const std::vector<std::vector<int>> gaits = held_gaits(c, cost, next, steps), classes = c.classes.members();
+    std::vector<Entrants> members(classes.size() + gaits.size());
+    for (std::size_t k = 0; k < members.size(); ++k) {
+      const bool is_gait = k >= classes.size();
+      const std::vector<int>& each = is_gait ? gaits[k - classes.size()] : classes[k];
+      if (!each.empty()) members[k] = cost.entrants(each, is_gait ? each.front() : c.classes.representatives[k]);
+    }
     lists.push_back({&c, std::move(members), std::move(steps), std::move(cost), step_seconds(c), std::move(next)});
     most = std::max(most, c.pool.fragments.size());
     pools.push_back(&c.pool);

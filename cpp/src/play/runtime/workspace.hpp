@@ -20,7 +20,7 @@ namespace fragmotion {
 /// What is looked up of the fragments of one style.
 struct FragmentLists {
   const Character* character;           ///< In that style.
-  std::vector<Entrants> members;        ///< Of each class.
+  std::vector<Entrants> members;        ///< Of each class, and then of the gait of each control: held_gaits().
   std::vector<EntrySteps> entry_steps;  ///< entry_steps()
   TransitionCost cost;                  ///< Of playing each.
   std::vector<double> step_seconds;     ///< step_seconds()
