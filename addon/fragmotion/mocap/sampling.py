@@ -184,7 +184,7 @@ class _Sampled:
             key for key, curve in curves.items() if len(curve.keyframe_points) == len(times) and not curve.modifiers
         ]
         points = points_of_alike([curves[key] for key in alike], len(times))
-        on_times = (np.abs(points[:, :, 0] - times) < _SAME_FRAME).all(axis=1)
+        on_times = np.abs(points[:, :, 0] - times).max(axis=1) < _SAME_FRAME
         self._read: dict[tuple[str, int], NDArray[np.float32]] = {
             key: values for key, on, values in zip(alike, on_times, points[:, :, 1]) if on
         }

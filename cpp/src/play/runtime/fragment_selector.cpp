@@ -144,7 +144,8 @@ float FragmentSelector::usual_cost(int of_class, int next_class, const Control& 
          style_->cost.of_going_on(c.classes.representatives[next_class], control);
 }
 
-[[gnu::cold]] int FragmentSelector::choose(int next_class, const Control& control, const Playback& playback, bool posed) {
+[[gnu::cold]] int FragmentSelector::choose(int next_class, const Control& control, const Playback& playback,
+                                           bool posed) {
   Candidates& candidates = workspace_->candidates[0];
   find_candidates(next_class, control, {playback.fragment(), playback.contacts()}, candidates);
   if (posed) extrapolate(playback);
