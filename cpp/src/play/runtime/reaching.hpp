@@ -33,7 +33,7 @@ class Reaching {
   void reach(int side, const HandAim& aim);
   const HandAim& aim(int side) const { return hands_[side].aim; }
   /// Lets what it needs while hands are as captured be on its way to the processor.
-  void prefetch() const { prefetch_between(&workspace_, &hands_); }
+  void prefetch() const { prefetch_between(&idles_, &hands_); }
 
   /// Changes Workspace::shown, `seconds` after the pose that was shown last, where the ground under the character is at
   /// the height `level`, m.
