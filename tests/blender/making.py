@@ -221,9 +221,11 @@ def activate(obj: bpy.types.Object) -> None:
     bpy.context.view_layer.objects.active = obj
 
 
-def add_action(obj: bpy.types.Object, frames: int = 12, seed: int = 1, name: str = "take") -> bpy.types.Action:
-    """Key every bone's rotation in its own mode, and the locations of root and hips, on frames 1, 2, ..., by Blender's
-    own keyframe_insert; the object keeps playing the Action."""
+def add_action(
+    obj: bpy.types.Object, frames: int = 12, seed: int = 1, name: str = "take", swing: float = 0.7
+) -> bpy.types.Action:
+    """Key every bone's rotation in its own mode, up to `swing` rad about each axis, and the locations of root and hips,
+    on frames 1, 2, ..., by Blender's own keyframe_insert; the object keeps playing the Action."""
     obj.animation_data_clear()
     for index, bone in enumerate(obj.pose.bones):
         channel = {"QUATERNION": "rotation_quaternion", "AXIS_ANGLE": "rotation_axis_angle"}.get(
@@ -233,7 +235,7 @@ def add_action(obj: bpy.types.Object, frames: int = 12, seed: int = 1, name: str
         angles = waves(frames, 4, seed + 10 * index)
         rest = np.array([1, 0, 0, 0]) if bone.rotation_mode == "QUATERNION" else np.zeros(size)
         for frame in range(frames):
-            setattr(bone, channel, (rest + 0.7 * angles[frame, :size]).tolist())
+            setattr(bone, channel, (rest + swing * angles[frame, :size]).tolist())
             bone.keyframe_insert(channel, frame=frame + 1)
     for name_moving in ("root", "hips"):
         if name_moving in obj.pose.bones:

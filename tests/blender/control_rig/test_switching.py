@@ -63,7 +63,7 @@ def test_a_limb_that_is_switched_to_ik_shows_the_same(addon: ModuleType, bound: 
         files = [{"name": WALK.name}]
         assert bpy.ops.fragmotion.import_mocap(directory=str(WALK.parent), files=files, onto="ACTIVE") == {"FINISHED"}
     else:
-        making.add_action(motion, 8)
+        making.add_action(motion, 8, swing=0.35)  # about as far as a walk swings its joints
     assert bpy.ops.fragmotion.bake_to_controls("EXEC_DEFAULT") == {"FINISHED"}
     first, last = rig.animation_data.action.frame_range
     frames = range(int(first), int(last) + 1, 2)
