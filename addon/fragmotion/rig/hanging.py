@@ -14,8 +14,8 @@ from bpy.props import StringProperty
 from ..compat import versions
 from ..compat.core import core
 from . import posing
-from .mesh_bones import bones_beside_names, hang_by_motion
-from .rigs import FEET, bone_path, carriers, hanging_of, is_tied, make_rig
+from .mesh_bones import bones_beside_names, hang_by_motion, named_feet
+from .rigs import bone_path, carriers, hanging_of, is_tied, make_rig, parents_of
 
 if TYPE_CHECKING:
     from fragmotion_core import Doubles, Rig
@@ -49,8 +49,7 @@ def find_hanging(context: bpy.types.Context, obj: bpy.types.Object, actions: Seq
     ways = dict[str, float]()
     if candidates:
         poses = _poses(context, obj, actions)
-        parents = [bones.find(bone.parent.name) if bone.parent else -1 for bone in bones]
-        moving = core.find_hanging(bones.keys(), parents, poses, [bones.find(name) for name in candidates])
+        moving = core.find_hanging(bones.keys(), parents_of(obj), poses, [bones.find(name) for name in candidates])
         ways = {name: core.span_beside(poses, bones.find(name), bones.find(hips.name)) for name in candidates}
         found = {**found, **_beside_hips(obj, hips, candidates), **_on_body(obj, hips, moving)}
     _keep(obj, {bones[bone].name: bones[on].name for bone, on in sorted(found.items())})
@@ -144,8 +143,7 @@ def _say(obj: bpy.types.Object, rig: Rig, ways: Mapping[str, float]) -> list[str
 
 
 def _say_mesh(obj: bpy.types.Object, of_mesh: Sequence[str]) -> str:
-    roles = make_rig(obj, roles={}).skeleton.roles
-    foot = next(roles[role] for role in FEET if role in roles)
+    foot = named_feet(obj)[0].name
     return (
         f"Learned, and baked, are the {len(of_mesh)} bones that the mesh follows, as they move with each other: of the "
         f"legs that names tell ('{foot}') it follows none"

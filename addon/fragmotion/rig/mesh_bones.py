@@ -12,22 +12,27 @@ import numpy as np
 
 from ..compat.core import core
 from .bodies import chosen_roles, set_roles
-from .rigs import FEET, is_tied, make_rig
-from .skins import bones_of_meshes, is_followed, make_skin
+from .rigs import FEET, is_tied, make_rig, parents_of
+from .skins import followed_bones, is_skinned, make_skin
 
 if TYPE_CHECKING:
     from fragmotion_core import Doubles
 
 
+def named_feet(obj: bpy.types.Object) -> list[bpy.types.Bone]:
+    """The feet that the bones' names tell, whatever *Bones* has."""
+    roles = make_rig(obj, roles={}).skeleton.roles
+    return [obj.data.bones[roles[role]] for role in FEET if role in roles]
+
+
 def bones_beside_names(obj: bpy.types.Object) -> list[str]:
     """The bones that a mesh follows, in their order, where it follows neither foot that the names tell, nor what hangs
     on it; else none."""
-    roles = make_rig(obj, roles={}).skeleton.roles
-    feet = [obj.data.bones[roles[role]] for role in FEET if role in roles]
+    feet = named_feet(obj)
     below = {bone.name for foot in feet for bone in (foot, *foot.children_recursive)}
-    if not feet or is_followed(obj, below):
+    if not feet or not is_skinned(obj) or any(name in below for name in followed_bones(obj)):
         return []
-    followed = bones_of_meshes(obj)
+    followed = set(followed_bones(obj))
     return [bone.name for bone in obj.data.bones if bone.name in followed]
 
 
@@ -35,8 +40,7 @@ def hang_by_motion(obj: bpy.types.Object, names: Sequence[str], poses: Doubles) 
     """On which other each of these bones hangs whose parent is none of them, as poses [F,B,4,4] in the armature's space
     show it; and their roles are kept with the armature, where nobody has chosen them."""
     bones = obj.data.bones
-    parents = [bones.find(bone.parent.name) if bone.parent else -1 for bone in bones]
-    joints = core.find_joints(bones.keys(), parents, poses, [bones.find(name) for name in names])
+    joints = core.find_joints(bones.keys(), parents_of(obj), poses, [bones.find(name) for name in names])
     hanging = {bones[bone].name: bones[on].name for bone, on in joints.items() if not is_tied(bones[bone])}
     if chosen_roles(obj) is None:
         set_roles(obj, _roles(obj, names, hanging))

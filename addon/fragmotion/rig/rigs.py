@@ -29,6 +29,12 @@ FEWEST_BONES = 2
 """A character needs a bone that moves against another."""
 
 
+def parents_of(obj: bpy.types.Object) -> list[int]:
+    """The number of each bone's parent; -1: none."""
+    bones = obj.data.bones
+    return [bones.find(bone.parent.name) if bone.parent else -1 for bone in bones]
+
+
 def make_rig(obj: bpy.types.Object, place: Matrix | None = None, roles: Mapping[str, str] | None = None) -> Rig:
     """The armature at its place in the world now, or at another, its roles as *Bones* has them or as given; UserError
     on what no character can have."""
@@ -40,7 +46,7 @@ def make_rig(obj: bpy.types.Object, place: Matrix | None = None, roles: Mapping[
     with core_errors(f"Armature '{obj.name}'"):
         rig: Rig = core.Rig(
             names=[bone.name for bone in bones],
-            parents=[bones.find(bone.parent.name) if bone.parent else -1 for bone in bones],
+            parents=parents_of(obj),
             rest=np.array([bone.matrix_local for bone in bones]),
             lengths=[bone.length for bone in bones],
             world=np.array(obj.matrix_world if place is None else place),

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
 import bpy
@@ -39,33 +39,22 @@ def make_skin(obj: bpy.types.Object, rig: Rig) -> Skin:
     return skin
 
 
-def is_followed(obj: bpy.types.Object, names: Collection[str]) -> bool:
-    """Whether a mesh follows one of these bones, or none follows any."""
-    meshes = [mesh for mesh in bpy.data.objects if mesh.type == "MESH" and mesh.find_armature() == obj]
-    if any(mesh.type == "MESH" and mesh.parent == obj and mesh.parent_bone in names for mesh in bpy.data.objects):
-        return True
-    return not meshes or any(_follows(mesh, names) for mesh in meshes)
+def is_skinned(obj: bpy.types.Object) -> bool:
+    """Whether an armature deforms a mesh."""
+    return any(mesh.type == "MESH" and mesh.find_armature() == obj for mesh in bpy.data.objects)
 
 
-def _follows(mesh: bpy.types.Object, names: Collection[str]) -> bool:
-    told = {group.index for group in mesh.vertex_groups if group.name in names}
-    return bool(told) and any(
-        group.group in told and group.weight > 0 for vertex in mesh.data.vertices for group in vertex.groups
-    )
-
-
-def bones_of_meshes(obj: bpy.types.Object) -> set[str]:
-    """The bones that a mesh follows, by its weights or as their child."""
-    followed = set[str]()
+def followed_bones(obj: bpy.types.Object) -> Iterator[str]:
+    """The bones that meshes follow, by their weights or as their children: each as often as it is met."""
     for mesh in bpy.data.objects:
-        if mesh.type == "MESH" and mesh.find_armature() == obj:
+        if mesh.type != "MESH":
+            continue
+        if mesh.find_armature() == obj:
             names = [group.name for group in mesh.vertex_groups]
-            followed |= {
-                names[group.group] for vertex in mesh.data.vertices for group in vertex.groups if group.weight > 0
-            }
-        elif mesh.type == "MESH" and mesh.parent == obj and mesh.parent_type == "BONE":
-            followed.add(mesh.parent_bone)
-    return followed & set(obj.data.bones.keys())
+            weights = (each for vertex in mesh.data.vertices for each in vertex.groups)
+            yield from (names[each.group] for each in weights if each.weight > 0)
+        elif mesh.parent == obj and mesh.parent_type == "BONE":
+            yield mesh.parent_bone
 
 
 def _copies(obj: bpy.types.Object) -> set[str]:
