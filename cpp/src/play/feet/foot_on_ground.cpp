@@ -12,8 +12,9 @@ namespace {
 
 constexpr int kTrials = 8;  // times that a sole is moved off an edge, to the front and to the back
 
-// The height of a foot's clearance at a part of its way.
-double arch(double part) { return 1 - std::pow(2 * part - 1, 4); }
+// The height of a foot's clearance at a part of its way: full but close to where it leaves and lands, for an edge there
+// is passed from above.
+double arch(double part) { return 1 - std::pow(2 * part - 1, 16); }
 
 }  // namespace
 
@@ -133,8 +134,7 @@ void FootOnGround::clear(const FootAhead& foot, double lower, double seconds, Gr
     const double u = static_cast<double>(i + 1) / FootAhead::kPoints, later = u * due_;
     const Sole at = foot.way[i].moved(shift() + u * (beside_ - shift()));
     const double over = known_.over(at, lower, on_way(at.place(), later), along, probe);
-    const double height = arch(part_of_way(at.place(), later));
-    if (over > 0 && height > 0) wanted = std::max(wanted, (over + std::min(over, kUneven * metre_)) / height);
+    wanted = std::max(wanted, over + std::min(over, kUneven * metre_));
   }
   clearance_.advance(std::min(wanted, kHighestStep * metre_), fresh_ ? 0 : kLoading, seconds);
 }
