@@ -73,7 +73,7 @@ def undone(character: core.Character) -> list[str]:
     return core.undone_controls(character.space, core.abilities(character))
 
 
-@pytest.fixture(scope="module", params=SETS)
+@pytest.fixture(scope="module", params=["all", pytest.param("five", marks=pytest.mark.thorough), "one"])
 def learned(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> core.Character:
     """A character of some of the sample's takes."""
     files = write_sample(tmp_path_factory.mktemp("takes"))
@@ -89,6 +89,7 @@ def test_every_control_that_asks_for_motion_is_answered_with_it(learned: core.Ch
     assert dead(learned, policy) == []
 
 
+@pytest.mark.thorough
 def test_one_style_of_takes_answers_every_control() -> None:
     files = sorted(BANDAI.glob("dataset-1_*_active_*.bvh"))
     if not files:

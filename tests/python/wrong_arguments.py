@@ -39,7 +39,7 @@ def unaligned(array: Array) -> Array:
 def wrong_arrays(good: Array) -> Iterator[Array]:
     """Arrays like a good one, with one thing wrong, or only unusual."""
     flat = good.astype(float)
-    for place, value in itertools.product((0, flat.size // 2, flat.size - 1), NUMBERS):
+    for place, value in zip(itertools.cycle((0, flat.size // 2, flat.size - 1)), NUMBERS):
         if flat.size:
             broken = flat.copy()
             broken.flat[place] = float(value)
