@@ -105,3 +105,4 @@ def test_what_no_class_does_is_named(tmp_path: Path) -> None:
     character = core.build(take.skeleton, [clip], [core.simulate_trace("explorer", 60, 1)], options)
     assert "walk forward" not in undone(character)
     assert {"walk back", "sidestep left", "run back"} <= set(undone(character))
+    assert core.undone_controls(character.space, [False] * len(character.space.points))[0] == "stand"

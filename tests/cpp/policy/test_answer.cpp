@@ -94,7 +94,24 @@ TEST(AnswerMotion, DoesTheNearestThatThereIsForWhatThereIsNot) {
   }
 }
 
-TEST(AnswerMotion, LeavesStandsAndJumpsAndWhatIsAnswered) {
+TEST(AnswerMotion, LeadsFromEveryClassToAStandThatIsAskedFor) {
+  Random random(12);
+  for (int n = 0; n < 60; ++n) {
+    Tables tables(random, 1 + random.below(12), false);
+    const ControlSpace& space = tables.space;
+    const auto stands = [&](const Control& evident) { return !evident.jumps() && !space.asks_to_go(evident); };
+    tables.answer();
+    if (std::none_of(tables.evident.begin(), tables.evident.end(), stands)) continue;
+    for (int from = 0; from < tables.policy.classes; ++from) {
+      const std::vector<int> cycle = tables.cycle(from, space.nearest({}));
+      double speeds = 0;
+      for (const int k : cycle) speeds += tables.evident[k].speed();
+      EXPECT_FALSE(space.asks_to_go({0, speeds / static_cast<double>(cycle.size()), 0, 0})) << "from " << from;
+    }
+  }
+}
+
+TEST(AnswerMotion, LeavesTurnsOnTheSpotAndJumpsAndWhatIsAnswered) {
   Random random(9);
   for (int n = 0; n < 20; ++n) {
     Tables tables(random, 2 + random.below(9), true);
@@ -103,7 +120,7 @@ TEST(AnswerMotion, LeavesStandsAndJumpsAndWhatIsAnswered) {
     for (int from = 0; from < before.classes; ++from) {
       for (int c = 0; c < kPaperPoints; ++c) {
         const Control& wanted = tables.space.point(c);
-        if (wanted.speed() > 0 && !wanted.jumps()) continue;
+        if ((wanted.speed() > 0 || wanted.turn == 0) && !wanted.jumps()) continue;
         EXPECT_EQ(tables.policy(from, c), before(from, c)) << c;
       }
     }

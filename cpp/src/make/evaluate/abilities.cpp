@@ -54,8 +54,7 @@ std::vector<std::string> undone_controls(const ControlSpace& space, const std::v
   std::vector<std::string> names;
   for (int c = 0; c < space.size(); ++c) {
     const Control& control = space.point(c);
-    const bool goes = control.turn == 0 && !control.jumps() && control.speed() > 0;
-    if (goes && !done[c]) names.push_back(control_name(space, control));
+    if (control.turn == 0 && !control.jumps() && !done[c]) names.push_back(control_name(space, control));
   }
   return names;
 }

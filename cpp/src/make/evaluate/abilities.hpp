@@ -16,8 +16,8 @@ namespace fragmotion {
 /// Deterministic whatever the number of threads.
 std::vector<char> abilities(const std::shared_ptr<const Character>& character, int threads = 0);
 
-/// The names of the controls without turn or jump that ask for motion and are not `done` [controls], as abilities()
-/// tells.
+/// The names of the controls without turn or jump, of which one is to stand, that are not `done` [controls], as
+/// abilities() tells.
 std::vector<std::string> undone_controls(const ControlSpace& space, const std::vector<char>& done);
 
 }  // namespace fragmotion

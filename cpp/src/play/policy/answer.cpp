@@ -8,14 +8,17 @@ namespace fragmotion {
 namespace {
 
 bool asks_for_motion(const Control& control) { return control.speed() > 0 && !control.jumps(); }
+bool asks_to_stand(const Control& control) { return control.speed() == 0 && control.turn == 0 && !control.jumps(); }
 
-// The classes that may play and answer a control.
-std::vector<int> answering_classes(const Quality& quality, const Control& wanted, int control,
+// The classes that may play and answer a control, or stand where it asks to.
+std::vector<int> answering_classes(const Quality& quality, const ControlSpace& space, int control,
                                    const std::vector<Control>& evident) {
+  const Control& wanted = space.point(control);
   std::vector<int> answering;
   for (int k = 0; k < quality.classes; ++k) {
     const bool plays = quality.match[static_cast<std::size_t>(k) * quality.controls + control] > 0;
-    if (plays && answers(evident[k], wanted)) answering.push_back(k);
+    if (plays && answers(evident[k], wanted) && (wanted.speed() > 0 || !space.asks_to_go(evident[k])))
+      answering.push_back(k);
   }
   return answering;
 }
@@ -27,11 +30,11 @@ class HeldControl {
               const std::vector<int>& bridges, int control)
       : policy_(policy),
         quality_(quality),
-        wanted_(space.point(control)),
+        space_(space),
         evident_(evident),
         bridges_(bridges),
         control_(control),
-        answering_(answering_classes(quality, wanted_, control, evident)) {}
+        answering_(answering_classes(quality, space, control, evident)) {}
 
   void answer() {
     find_cycles();
@@ -69,13 +72,17 @@ class HeldControl {
 
   bool is_answered(const std::vector<int>& cycle) {
     Vector2 sum = Vector2::Zero();
-    double played = 0;
-    const auto play = [&](int k) { sum += Vector2(evident_[k].x, evident_[k].y), ++played; };
+    double played = 0, speeds = 0;
+    const auto play = [&](int k) {
+      sum += Vector2(evident_[k].x, evident_[k].y), speeds += evident_[k].speed(), ++played;
+    };
     for (const int k : cycle) {
       play(k);
       if (bridge(k, next(k)) >= 0) play(bridge(k, next(k)));
     }
-    return goes_along(sum.x() / played, sum.y() / played, wanted_);
+    const Control& wanted = space_.point(control_);
+    if (wanted.speed() == 0) return !space_.asks_to_go({speeds / played, 0, 0, 0});
+    return goes_along(sum.x() / played, sum.y() / played, wanted);
   }
 
   // Finds which classes lead to a cycle that answers, and those of the cycles that do not.
@@ -102,7 +109,7 @@ class HeldControl {
 
   Policy& policy_;
   const Quality& quality_;
-  const Control& wanted_;
+  const ControlSpace& space_;
   const std::vector<Control>& evident_;
   const std::vector<int>& bridges_;
   int control_;
@@ -118,7 +125,7 @@ std::vector<int> answered_controls(const Quality& quality, const ControlSpace& s
   std::vector<int> answered;
   for (int c = 0; c < controls; ++c) {
     const Control& wanted = space.point(c);
-    if (asks_for_motion(wanted) && !answering_classes(quality, wanted, c, evident).empty()) answered.push_back(c);
+    if (asks_for_motion(wanted) && !answering_classes(quality, space, c, evident).empty()) answered.push_back(c);
   }
   std::vector<int> performed(controls);
   for (int c = 0; c < controls; ++c) {
@@ -134,7 +141,9 @@ std::vector<int> answered_controls(const Quality& quality, const ControlSpace& s
 void answer_motion(Policy& policy, const Quality& quality, const ControlSpace& space,
                    const std::vector<Control>& evident, const std::vector<int>& bridges) {
   for (int c = 0; c < policy.controls; ++c) {
-    if (asks_for_motion(space.point(c))) HeldControl(policy, quality, space, evident, bridges, c).answer();
+    const Control& wanted = space.point(c);
+    if (asks_for_motion(wanted) || asks_to_stand(wanted))
+      HeldControl(policy, quality, space, evident, bridges, c).answer();
   }
   const std::vector<int> performed = answered_controls(quality, space, evident);
   for (std::size_t row = 0; row < policy.next.size(); row += policy.controls) {
