@@ -38,7 +38,7 @@ TEST(SteadyGoings, AreForwardAndEven) {
   const auto going = [](const Vector3& velocity, double acceleration) {
     BodyTrack track = standing_track(4);
     move(track, true, [&](double t) { return Vector3(velocity * t + Vector3(0, 0.5 * acceleration * t * t, 0)); });
-    return steady_goings(track).size();
+    return steady_goings(track, {0.95, 0.95}).size();
   };
   EXPECT_EQ(going({0, 1, 0}, 0), 241u - 90u);
   EXPECT_EQ(going({0.4, 1, 0}, 0), 241u - 90u);
@@ -48,10 +48,24 @@ TEST(SteadyGoings, AreForwardAndEven) {
   EXPECT_TRUE(goings(standing_track(0.5)).empty());
 }
 
+// A run with feet off the ground and the hips 0.1 m up, and a leap of 0.3 m, both for the third second of five.
+TEST(SteadyGoings, AreNoJumps) {
+  const auto found = [](double up) {
+    BodyTrack track = standing_track(5);
+    move(track, true, [&](double t) { return Vector3(0, t, t > 2 && t < 3 ? up * std::sin(kPi * (t - 2)) : 0); });
+    return steady_goings(track, {0.95, 0.95});
+  };
+  EXPECT_EQ(found(0.1).size(), 301u - 90u);
+  const std::vector<Going> walks = found(0.3);
+  EXPECT_NEAR(walks.size(), 301 - 90 - 180, 6);  // from 0.5 s to 3.5 s; the ends of the leap are close to the ground
+  for (const Going& going : walks) EXPECT_LT(going.bob, 1e-9);
+}
+
 std::vector<Going> steady_takes(const Character& character) {
   std::vector<Going> takes;
-  for (const BodyTrack& track : tracks_of(character.pool.skeleton, captured_takes(character.pool)).tracks) {
-    for (const Going& going : steady_goings(track)) takes.push_back(going);
+  const auto tracks = tracks_of(character.pool.skeleton, captured_takes(character.pool)).tracks;
+  for (const BodyTrack& track : tracks) {
+    for (const Going& going : steady_goings(track, usual_heights(tracks))) takes.push_back(going);
   }
   return takes;
 }

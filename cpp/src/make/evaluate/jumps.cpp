@@ -12,8 +12,7 @@
 namespace fragmotion {
 namespace {
 
-constexpr double kAroundJump = 0.5;  // s
-constexpr double kShortest = 0.05;   // s
+constexpr double kShortest = 0.05;  // s
 
 double median_height(const std::vector<BodyTrack>& tracks, std::vector<Vector3> BodyTrack::*path) {
   std::vector<double> heights;

@@ -7,6 +7,9 @@
 
 namespace fragmotion {
 
+/// For how long before the take-off and after the landing it is a jump, s.
+constexpr double kAroundJump = 0.5;
+
 /// The heights that a body usually has, m of a 1.8 m character: medians over time.
 struct UsualHeights {
   double center = 0, hips = 0;

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/rates.hpp"
+#include "evaluate/jumps.hpp"
 #include "evaluate/performance.hpp"
 #include "evaluate/tracks.hpp"
 #include "fragments/speed_range.hpp"
@@ -71,6 +72,17 @@ bool is_steady(const BodyTrack& track, int begin) {
   return mean.dot(ahead) >= std::cos(kSameDirection) * mean.norm() && change.norm() <= kSteady * mean.norm();
 }
 
+// Of each frame, whether one jumps in the second that begins at it, or in the time around a jump.
+std::vector<bool> jumping(const BodyTrack& track, const UsualHeights& usual) {
+  std::vector<bool> jumping(track.frames());
+  const int around = track.frames_in(kAroundJump), second = track.frames_in(kLong);
+  for (const Jump& jump : find_jumps(track, usual)) {
+    const int first = std::max(0, jump.take_off - around - second), end = jump.landing + around + 1;
+    std::fill(jumping.begin() + first, jumping.begin() + std::min(end, track.frames()), true);
+  }
+  return jumping;
+}
+
 void compare(SpeedRipple& row, const std::vector<Going>& takes) {
   row.takes_speed = row.takes_ripple = row.takes_bob = row.takes_steps = std::numeric_limits<double>::quiet_NaN();
   if (takes.empty()) return;
@@ -98,11 +110,12 @@ std::vector<Going> goings(const BodyTrack& track, int first) {
   return found;
 }
 
-std::vector<Going> steady_goings(const BodyTrack& track) {
+std::vector<Going> steady_goings(const BodyTrack& track, const UsualHeights& usual) {
   const int second = track.frames_in(kLong), quarter = track.frames_in(kLong / 4);
+  const std::vector<bool> jumps = jumping(track, usual);
   std::vector<Going> found;
   for (int f = quarter; f + second + quarter < track.frames(); ++f) {
-    if (is_steady(track, f)) found.push_back(going(track, f));
+    if (!jumps[f] && is_steady(track, f)) found.push_back(going(track, f));
   }
   return found;
 }
@@ -112,8 +125,9 @@ std::vector<SpeedRipple> speed_ripples(const std::shared_ptr<const Character>& c
   const Kinematics kinematics(character->pool.skeleton);
   std::vector<Going> takes;
   const auto [tracks, floors] = tracks_of(character->pool.skeleton, captured_takes(character->pool));
+  const UsualHeights usual = usual_heights(tracks);
   for (const BodyTrack& track : tracks) {
-    const std::vector<Going> some = steady_goings(track);
+    const std::vector<Going> some = steady_goings(track, usual);
     takes.insert(takes.end(), some.begin(), some.end());
   }
   std::vector<SpeedRipple> rows;

@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "evaluate/body_track.hpp"
+#include "evaluate/jumps.hpp"
 #include "runtime/player.hpp"
 
 namespace fragmotion {
@@ -21,8 +21,9 @@ struct Going {
 std::vector<Going> goings(const BodyTrack& track, int first = 0);
 
 /// Of each second in which it goes forward, within 30 degrees of where it faces, and steadily: the mean velocities of
-/// the half seconds around its beginning and its end differ by at most a tenth of its speed.
-std::vector<Going> steady_goings(const BodyTrack& track);
+/// the half seconds around its beginning and its end differ by at most a tenth of its speed. None in a jump, nor in
+/// the half second before and after it, of a body whose heights are usually so.
+std::vector<Going> steady_goings(const BodyTrack& track, const UsualHeights& usual);
 
 /// How evenly a character goes at a speed, m and m/s of a 1.8 m character; NaN where the takes do not go steadily.
 struct SpeedRipple {
