@@ -20,6 +20,7 @@ from ..mocap.curve_points import read_once
 from ..mocap.doctor import say_bobbing, say_lying, tell_ground, tell_size
 from ..mocap.hands import hand_pose, with_hands
 from ..mocap.on_the_spot import lead_by_feet, say_untold
+from ..mocap.other_bodies import keep_legs
 from ..mocap.sampling import rig_as_posed, sample_parts
 from ..mocap.styles import grouped, style_of
 from ..recordings.traces import make_traces
@@ -99,6 +100,7 @@ def gather(context: bpy.types.Context, obj: bpy.types.Object, settings: Any) -> 
     found = find_hanging(context, obj, takes)
     rig = make_rig(obj)
     carriers(obj, rig)
+    other_bodies = keep_legs(obj, takes, rig)
     options = make_options(settings)
     traces = make_traces(obj, settings, options.usual_space)
     styled, warnings = _sample_all(context, obj, takes, rig)
@@ -114,6 +116,7 @@ def gather(context: bpy.types.Context, obj: bpy.types.Object, settings: Any) -> 
             *say_scaled(obj, takes),
             *say_feet(rig.skeleton),
             *tell_size(takes, rig.skeleton),
+            *other_bodies,
             *warnings,
         ],
     )

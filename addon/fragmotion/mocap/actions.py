@@ -48,11 +48,11 @@ def with_own_bones(obj: bpy.types.Object) -> Iterator[bpy.types.Action]:
     """The Actions that animate bones of the armature, be they few, and hardly others; bakes, too; but none that another
     armature has and this one has not, as files with several characters of the same bones hold them."""
     others = [each for each in bpy.data.objects if each.type == "ARMATURE" and each != obj]
-    foreign = {action for each in others for action in _played(each)} - set(_played(obj))
+    foreign = {action for each in others for action in played(each)} - set(played(obj))
     return (action for action in bpy.data.actions if action not in foreign and _known_bones(action, obj) > 0)
 
 
-def _played(obj: bpy.types.Object) -> Iterator[bpy.types.Action]:
+def played(obj: bpy.types.Object) -> Iterator[bpy.types.Action]:
     """The Action that an object plays, and those of its NLA strips."""
     data = obj.animation_data
     if data is not None:

@@ -13,6 +13,7 @@ from ..rig.rigs import carriers
 from ..rig.writing import write_poses
 from .actions import RATE, SCENE_RATE, rate_of
 from .doctor import DUPLICATE, TakeFinding
+from .other_bodies import keep_own_leg
 from .retargeting import FIRST_FRAME, key_times, retargeted_takes
 from .sampling import rig_as_posed, sample, scene_rate
 
@@ -52,5 +53,6 @@ def _write(
     action[SCENE_RATE] = rate_of(action, SCENE_RATE, scene_rate(context.scene))
     action[RATE] = take.rate
     times = start + key_times(action, len(rotations))
+    keep_own_leg(obj, action, rig)
     write_poses(action, obj, times, locations, rotations, carriers(obj, rig))
     context.view_layer.update()

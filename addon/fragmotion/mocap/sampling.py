@@ -22,6 +22,7 @@ from . import left_out
 from .actions import RATE, SCENE_RATE, animated_bones, fitting, rate_of, with_own_bones
 from .curve_points import points_of, points_of_alike
 from .markers import markers_of
+from .other_bodies import times_longer
 
 if TYPE_CHECKING:
     from fragmotion_core import Clip, Doubles, Rig
@@ -92,12 +93,13 @@ def _sample_curves(
     if len(times) < _FEWEST_FRAMES:
         raise SinglePose(f"{place} holds a single pose (frame {times[0]:g}), no motion to learn from: untick it")
     with core_errors(place):
+        longer = times_longer(obj, action, rig)
         if posing.is_needed(obj, curves):
-            matrices, worlds = posing.sample_poses(context, obj, action, times)
+            matrices, worlds = posing.sample_poses(context, obj, action, times, longer)
             clip = rig.clip_from_matrices(action.name, rate, matrices, worlds)
         else:
             sampled = _Sampled(curves, times)
-            clip = rig.clip(action.name, rate, *_sample_bones(obj, sampled), _sample_object(obj, sampled))
+            clip = rig.clip(action.name, rate, *_sample_bones(obj, sampled, longer), _sample_object(obj, sampled))
         return clip.with_markers(markers_of(action, times))
 
 
@@ -218,8 +220,9 @@ def _read_curve(curve: bpy.types.FCurve, times: Doubles) -> Doubles | NDArray[np
     return np.fromiter((curve.evaluate(time) for time in times), float, len(times))
 
 
-def _sample_bones(obj: bpy.types.Object, sampled: _Sampled) -> tuple[Doubles, Doubles]:
-    """Locations [F,B,3] and quaternions [F,B,4] of all bones, in the armature's order."""
+def _sample_bones(obj: bpy.types.Object, sampled: _Sampled, longer: float) -> tuple[Doubles, Doubles]:
+    """Locations [F,B,3], so many times as long as they are keyed, and quaternions [F,B,4] of all bones, in the
+    armature's order."""
     bones, held, frames = obj.data.bones, held_of(obj), len(sampled.times)
     locations = np.zeros((frames, len(bones), 3))
     rotations = np.zeros((frames, len(bones), 4))
@@ -230,7 +233,8 @@ def _sample_bones(obj: bpy.types.Object, sampled: _Sampled) -> tuple[Doubles, Do
         if bone.name in held:
             place, rest = held[bone.name][:3], tuple(from_quaternions(mode, np.array([held[bone.name][3:]]))[1][0])
         if not is_tied(bone):
-            locations[:, index] = sampled.channel(bone_path(bone.name, "location"), place)
+            path = bone_path(bone.name, "location")
+            locations[:, index] = sampled.channel(path, place) * (longer if sampled.has(path) else 1)
         rotations[:, index] = to_quaternions(mode, sampled.channel(bone_path(bone.name, channel), rest))
     return locations, rotations
 

@@ -58,7 +58,7 @@ def find_hanging(context: bpy.types.Context, obj: bpy.types.Object, actions: Seq
 
 def _poses(context: bpy.types.Context, obj: bpy.types.Object, actions: Sequence[bpy.types.Action]) -> Doubles:
     """Some of each Action [F,B,4,4]."""
-    return np.concatenate([posing.sample_poses(context, obj, action, _times(action))[0] for action in actions])
+    return np.concatenate([posing.sample_poses(context, obj, action, _times(action), 1)[0] for action in actions])
 
 
 def _keep(obj: bpy.types.Object, hanging: Mapping[str, str]) -> None:

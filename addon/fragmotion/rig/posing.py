@@ -14,7 +14,7 @@ import numpy as np
 from ..compat import versions
 from ..errors import UserError
 from .keys import from_quaternions
-from .rigs import held_of, sizes_of
+from .rigs import bone_path, held_of, sizes_of
 
 if TYPE_CHECKING:
     from fragmotion_core import Doubles
@@ -48,10 +48,13 @@ def is_needed(obj: bpy.types.Object, curves: Iterable[tuple[str, int]]) -> bool:
 
 
 def sample_poses(
-    context: bpy.types.Context, obj: bpy.types.Object, action: bpy.types.Action, times: Doubles
+    context: bpy.types.Context, obj: bpy.types.Object, action: bpy.types.Action, times: Doubles, longer: float
 ) -> tuple[Doubles, Doubles]:
-    """Pose matrices [F,B,4,4] in the armature's space and order of bones, and the object's world matrices [F,4,4]."""
+    """Pose matrices [F,B,4,4] in the armature's space and order of bones, and the object's world matrices [F,4,4], the
+    bones' locations so many times as long as they are keyed."""
     bones = obj.pose.bones
+    keyed = {curve.data_path for curve in versions.curves_of(action, obj)} if longer != 1 else set[str]()
+    moved = [bone for bone in bones if bone_path(bone.name, "location") in keyed]
     order = [bones.find(bone.name) for bone in obj.data.bones]
     matrices = np.empty((len(times), len(bones), 4, 4))
     worlds = np.empty((len(times), 4, 4))
@@ -59,6 +62,8 @@ def sample_poses(
     with playing(context, obj, action):
         for index, time in enumerate(times):
             _go_to(context.scene, time)
+            for bone in moved:
+                bone.location *= longer
             posed = obj.evaluated_get(context.evaluated_depsgraph_get())
             posed.pose.bones.foreach_get("matrix", column_major)
             matrices[index] = column_major.reshape(-1, 4, 4).transpose(0, 2, 1)[order]
