@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <memory>
 #include <stdexcept>
@@ -92,9 +93,11 @@ void exchange_contacts(Archive& a, Contacts& contacts, int first = 0) {
     a.template number<double>(contacts.floors[foot].heel);
   }
   if (!Archive::kReads) return;
-  for (const std::uint8_t feet : standing) {
-    left.push_back((feet & 1) != 0);
-    right.push_back((feet & 2) != 0);
+  left.resize(standing.size());
+  right.resize(standing.size());
+  for (std::size_t f = 0; f < standing.size(); ++f) {
+    left[f] = (standing[f] & 1) != 0;
+    right[f] = (standing[f] & 2) != 0;
   }
 }
 
@@ -130,7 +133,7 @@ void exchange_each_fragment(Archive& a, std::vector<Fragment>& fragments) {
 template <typename Archive, typename Get, typename Set>
 void exchange_column(Archive& a, std::vector<Fragment>& fragments, const Get& get, const Set& set) {
   std::vector<std::int32_t> column;
-  for (const Fragment& f : fragments) column.push_back(get(f));
+  if (!Archive::kReads) std::transform(fragments.begin(), fragments.end(), std::back_inserter(column), get);
   a.packed(column, kFewestOfFragment);
   if (column.size() != fragments.size()) throw std::invalid_argument("its fragments do not fit together");
   for (std::size_t i = 0; Archive::kReads && i < column.size(); ++i) set(fragments[i], column[i]);

@@ -58,12 +58,15 @@ void complete(Character& c, std::uint32_t version) {
 // Each word is folded, so that its high bits are mixed as well.
 std::uint64_t policy_checksum(std::string_view payload) {
   std::uint64_t hash = kFnvSeed;
-  for (std::size_t at = 0; at < payload.size(); at += sizeof hash) {
+  const auto mix = [&](std::size_t at, std::size_t bytes) {
     std::uint64_t word = 0;
-    std::memcpy(&word, payload.data() + at, std::min(sizeof word, payload.size() - at));
+    std::memcpy(&word, payload.data() + at, bytes);
     hash = (hash ^ word) * kFnvPrime;
     hash ^= hash >> 32;
-  }
+  };
+  std::size_t at = 0;
+  for (; at + sizeof hash <= payload.size(); at += sizeof hash) mix(at, sizeof hash);
+  if (at < payload.size()) mix(at, payload.size() - at);
   return hash;
 }
 

@@ -38,9 +38,9 @@ class ArmReader {
   }
 
   void read(const PackedClip& clip, double frame) {
-    const Vector3 root = sample_pose(clip, frame, rotations_.data());
-    kinematics_.world_below(root, rotations_.data(), chains_, posed_.heads.data(), posed_.rotations.data());
-    const Quaternion facing = frame_at(clip, frame).rotation();
+    const RootPose root = sample_pose(clip, frame, clip.grid->bones, rotations_.data());
+    kinematics_.world_below(root.place, rotations_.data(), chains_, posed_.heads.data(), posed_.rotations.data());
+    const Quaternion facing = root.frame().rotation();
     for (int side = 0; side < 2; ++side) {
       const Arm& arm = (*ranges_)[side].arm;
       if (arm.exists()) add(side, arm, facing);

@@ -73,14 +73,17 @@ class TipWriter {
     std::array<Lanes, 3> tip;
   };
 
- private:
-  // Where the tips of a pose go.
+  /// From which poses are seen: places, and the scale times the cosine and the sine of the headings.
+  struct Frames {
+    Lanes x, y, cosine, sine;
+  };
+  /// Where the tips of a pose go, from the offset on.
   struct Rows {
-    CharacterFrame frame;
-    float* rows;  // from the offset on
+    float* rows;
     int stride;
   };
 
+ private:
   Kinematics kinematics_;
   std::vector<int> measured_;  // the bones whose tips are seen
   std::vector<int> chains_;    // and those between them and the hips, but for these
@@ -89,6 +92,7 @@ class TipWriter {
   double scale_;
   std::vector<Posed> posed_;
   std::array<std::vector<double>, kPoses> rotations_;
+  Frames frames_{};
   std::array<Rows, kPoses> to_{};
   int count_ = 0;
 };

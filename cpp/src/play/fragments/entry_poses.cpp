@@ -42,17 +42,22 @@ namespace {
 }
 
 void write_image(const float* original, const std::vector<int>& points, int stride, float* rows) {
-  for (int row = 0; row < 3; ++row, original += stride, rows += stride) {
-    for (std::size_t i = 0; i < points.size(); ++i) rows[i] = (row == 0 ? -1 : 1) * original[points[i]];
+  for (const int point : points) {
+    rows[0] = -original[point];
+    rows[stride] = original[stride + point];
+    rows[2 * stride] = original[2 * stride + point];
+    ++rows;
   }
 }
 
 void write(const PackedPool& pool, const Fragment& f, TipWriter& tips, int stride, float* rows) {
   const PackedClip& clip = pool.clips[f.clip];
-  const CharacterFrame frame = frame_at(clip, f.first_played());
+  CharacterFrame frame;
   for (int later = 0; later < 2; ++later) {
-    const Vector3 root = sample_pose(clip, f.first_played() + later * kEntry * clip.rate, tips.rotations());
-    tips.add(root, frame, rows, stride, later * tips.points());
+    const double at = f.first_played() + later * kEntry * clip.rate;
+    const RootPose root = sample_pose(clip, at, clip.grid->bones, tips.rotations());
+    if (later == 0) frame = root.frame();
+    tips.add(root.place, frame, rows, stride, later * tips.points());
   }
 }
 
@@ -66,12 +71,14 @@ std::vector<float> entry_poses(const PackedPool& pool) { return entry_poses(pool
   TipWriter tips(pool.skeleton);
   const int stride = padded(2 * tips.points());
   const std::size_t row = std::size_t{3} * stride, count = fragments.size();
-  std::vector<float> poses(count * row), image(row);
+  std::vector<float> poses, image(row);
+  poses.reserve(count * row);
   const std::vector<int> points = mirrored_points(pool), originals = originals_of(pool, fragments);
   const auto is_image = [&](std::size_t i) { return originals[i] >= 0 && !points.empty(); };
   std::size_t first = 0;
   while (first < count && !is_image(first)) ++first;
   for (std::size_t i = 0; i < count; ++i) {
+    poses.resize(row * (i + 1));
     if (i == first || !is_image(i)) write(pool, fragments[i], tips, stride, &poses[row * i]);
   }
   tips.flush();

@@ -32,13 +32,13 @@ class Reader {
     std::vector<double> most(bones_.size(), 0);  // tangents of half an angle
     int pose = 0;
     for (double frame = 0; frame < clip.frames; frame += apart, ++pose) {
-      const Vector3 root = sample_pose(clip, frame, chain_.back() + 1, rotations_.data());
-      kinematics_.world_below(root, rotations_.data(), chain_, heads_.data(), now_.data());
+      const RootPose root = sample_pose(clip, frame, chain_.back() + 1, rotations_.data());
+      kinematics_.world_below(root.place, rotations_.data(), chain_, heads_.data(), now_.data());
       for (std::size_t i = 0; frame > 0 && i < bones_.size(); ++i) {
         const Quaternion turn = product(now_[bones_[i]], before_[bones_[i]].conjugate());
         most[i] = std::max(most[i], turn.vec().norm() / std::abs(turn.w()));
       }
-      if (pose % every == 0) gaze_.add(frame_at(clip, frame).heading, now_);
+      if (pose % every == 0) gaze_.add(root.heading, now_);
       std::swap(now_, before_);
     }
     for (std::size_t i = 0; i < most.size(); ++i)

@@ -30,13 +30,16 @@ SpeedRange::SpeedRange(const std::vector<Fragment>& fragments, const ControlSpac
     : walk_(space.walk()), most_(kDirections, walk_) {
   for (const Fragment& fragment : fragments) {
     const Control& ev = fragment.evident;
-    if (is_made(fragment.origin) || (is_turning(ev, space.turn_rate()) && !goes_ahead(ev))) continue;
-    const double at = direction(ev), speed = kBeyond * ev.speed();
+    const double speed = kBeyond * ev.speed();
+    if (is_made(fragment.origin) || speed <= walk_) continue;
+    if (is_turning(ev, space.turn_rate()) && !goes_ahead(ev)) continue;
+    const double at = direction(ev);
     const int last = static_cast<int>(std::ceil((at + kSameDirection) / kTurn));
     for (int near = static_cast<int>(std::floor((at - kSameDirection) / kTurn)); near <= last; ++near) {
       const int i = (near + kDirections) % kDirections;
+      if (speed <= most_[i]) continue;
       const double off = std::abs(i * kTurn - at);  // up to one and a half turns
-      if (std::min(off, std::abs(off - 2 * kPi)) <= kSameDirection) most_[i] = std::max(most_[i], speed);
+      if (std::min(off, std::abs(off - 2 * kPi)) <= kSameDirection) most_[i] = speed;
     }
   }
 }

@@ -13,7 +13,7 @@ constexpr double kToDeepest = 0.7;  // s at most from the highest moment of the 
 constexpr double kToUpright = 0.6;  // s at most from there to where the hips are up
 constexpr double kUpright = 0.01;   // m of a 1.8 m character under their highest, from where hips are up
 
-double hips_height(const PackedClip& clip, int frame) { return sample_pose(clip, frame, 0, nullptr).z(); }
+double hips_height(const PackedClip& clip, int frame) { return root_at(clip, frame).place.z(); }
 double hips_height(const Clip& clip, int frame) { return clip.root_positions[std::size_t{3} * frame + 2]; }
 
 // The hips' heights over some frames of a clip.

@@ -272,19 +272,19 @@ std::size_t bytes_for(const std::vector<std::uint8_t>& bits) {
   clip.root_positions.resize(std::size_t{3} * clip.frames);
   clip.rotations.resize(std::size_t{4} * bones * clip.frames);
   for (int f = 0; f < clip.frames; ++f) {
-    store_vector(sample_pose(packed, f, &clip.rotations[std::size_t{4} * bones * f]),
-                 &clip.root_positions[std::size_t{3} * f]);
-    clip.headings.push_back(frame_at(packed, f).heading);
+    const RootPose root = sample_pose(packed, f, bones, &clip.rotations[std::size_t{4} * bones * f]);
+    store_vector(root.place, &clip.root_positions[std::size_t{3} * f]);
+    clip.headings.push_back(root.heading);
   }
   return clip;
 }
 
 Vector3 sample_pose(const PackedClip& clip, double at, double* rotations) {
-  return sample_pose(clip, at, clip.grid->bones, rotations);
+  return sample_pose(clip, at, clip.grid->bones, rotations).place;
 }
 
-Vector3 sample_pose(const PackedClip& clip, double at, int bones, double* rotations) {
-  const int blocks = clip.mirrored && bones > 0 ? clip.grid->blocks() : (bones + kBoneBlock - 1) / kBoneBlock;
+RootPose sample_pose(const PackedClip& clip, double at, int bones, double* rotations) {
+  const int blocks = clip.mirrored ? clip.grid->blocks() : (bones + kBoneBlock - 1) / kBoneBlock;
   const PackedBetween between(clip, at);
   double root[PackedPoses::kRootNumbers];
   unsigned bit = between.root(clip, root);
@@ -294,7 +294,7 @@ Vector3 sample_pose(const PackedClip& clip, double at, int bones, double* rotati
     bit = unpack_block(clip, block, between.pose, is_between ? between.next : nullptr, bit, pose, next);
     blend_block(clip, block, pose, is_between ? next : pose, static_cast<float>(between.weight), {}, plain, rotations);
   }
-  return {root[0], root[1], root[2]};
+  return {{root[0], root[1], root[2]}, root[3]};
 }
 
 [[gnu::cold]] UnpackedPoses::UnpackedPoses(int bones)

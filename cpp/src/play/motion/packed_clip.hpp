@@ -88,8 +88,6 @@ void check(const PoseGrid& grid, const Skeleton& skeleton);
 
 /// As those of Clip (pose.hpp), but that between frames rotations go straight and are made unit again.
 Vector3 sample_pose(const PackedClip& clip, double at, double* rotations);
-/// The same, but of rotations no more than those of the first `bones` bones need be written: 0, only the hips' place.
-Vector3 sample_pose(const PackedClip& clip, double at, int bones, double* rotations);
 /// The hips' place, m, and where the character faces, rad.
 struct RootPose {
   Vector3 place;
@@ -100,6 +98,8 @@ struct RootPose {
 
 /// That of sample_pose().
 RootPose root_at(const PackedClip& clip, double at);
+/// Both, but of rotations no more than those of the first `bones` bones need be written.
+RootPose sample_pose(const PackedClip& clip, double at, int bones, double* rotations);
 inline CharacterFrame frame_at(const PackedClip& clip, double at) { return root_at(clip, at).frame(); }
 
 /// The rotations of a block of bones from their usual ones.
