@@ -130,13 +130,12 @@ void BodyTips::pose(const Vector3& root, const double* rotations) {
   }
 }
 
-void BodyTips::write(const CharacterFrame& frame, float* rows, int stride, int offset) const {
-  const PlaneTurn turn(frame.heading);
-  const double c = scale_ * turn.cosine, s = scale_ * turn.sine;
+void BodyTips::write(const Vector2& place, const PlaneTurn& facing, float* rows, int stride, int offset) const {
+  const double c = scale_ * facing.cosine, s = scale_ * facing.sine;
   float *to_x = rows + offset, *to_y = to_x + stride, *to_z = to_y + stride;
   for (int i = 0; i < points(); ++i) {
     const Vector3& tip = tips_[i];
-    const double x = tip.x() - frame.position.x(), y = tip.y() - frame.position.y();
+    const double x = tip.x() - place.x(), y = tip.y() - place.y();
     to_x[i] = static_cast<float>(c * x + s * y);
     to_y[i] = static_cast<float>(c * y - s * x);
     to_z[i] = static_cast<float>(scale_ * tip.z());

@@ -37,7 +37,11 @@ class BodyTips {
   /// Takes a pose: the hips' place and rotations [bones, 4] as in Clip.
   void pose(const Vector3& root, const double* rotations);
   /// Writes its tips as seen from `frame`, as points offset .. of three rows of `stride` floats.
-  void write(const CharacterFrame& frame, float* rows, int stride, int offset) const;
+  void write(const CharacterFrame& frame, float* rows, int stride, int offset) const {
+    write(frame.position, PlaneTurn(frame.heading), rows, stride, offset);
+  }
+  /// The same of a frame at a place, and facing like that.
+  void write(const Vector2& place, const PlaneTurn& facing, float* rows, int stride, int offset) const;
 
  private:
   Kinematics kinematics_;

@@ -28,8 +28,9 @@ CharacterFrame FragmentSelector::pose_tips(const Playback& playback, double seco
 void FragmentSelector::extrapolate(const CharacterFrame& frame, const BodyTips& before, const BodyTips& now) const {
   std::vector<float>& onward = workspace_->onward;
   const int stride = static_cast<int>(onward.size()) / 3, points = now.points();
-  now.write(frame, onward.data(), stride, 0);
-  before.write(frame, onward.data(), stride, points);
+  const PlaneTurn facing(frame.heading);
+  now.write(frame.position, facing, onward.data(), stride, 0);
+  before.write(frame.position, facing, onward.data(), stride, points);
   for (int axis = 0; axis < 3; ++axis) {
     float *is = &onward[static_cast<std::size_t>(axis) * stride], *goes_on = is + points;
     for (int i = 0; i < points; ++i) goes_on[i] = 2 * is[i] - goes_on[i];
