@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include "motion/bladed_stance.hpp"
+#include "motion/in_place.hpp"
 #include "small_build.hpp"
 
 namespace fragmotion {
@@ -69,6 +72,51 @@ TEST(BladedStance, BuildLearnsAWalkAheadAsOneAhead) {
   for (const Fragment& f : c.pool.fragments) {
     if (f.clip == 0) continue;
     EXPECT_LT(std::abs(f.evident.x), 0.1) << f.begin;
+  }
+}
+
+Clip on_the_spot(double way, double hips) {
+  const Kinematics kinematics(humanoid());
+  Clip clip = take(way, hips, 0, 2);
+  for (int f = 0; f < clip.frames; ++f)
+    clip.root_positions[std::size_t{3} * f] = clip.root_positions[std::size_t{3} * f + 1] = 0;
+  const auto told = find_feet_way(kinematics, clip);
+  return told ? led(kinematics, clip, *told) : clip;
+}
+
+// Games' sidesteps: the hips turn, in part, to where the body would go.
+std::vector<Clip> on_the_spot(double turned) {
+  std::vector<Clip> clips;
+  for (const auto& [way, hips] : {std::pair{0.0, 0.3}, {kPi / 2, 1.7}, {-kPi / 2, -0.9}, {kPi, 0.3}})
+    clips.push_back(on_the_spot(way + turned, hips + turned));
+  return clips;
+}
+
+std::vector<double> told(std::vector<Clip> takes) { return take_told_turns(Kinematics(humanoid()), takes); }
+
+TEST(ToldTurns, AreThoseOfClipsOnTheSpotFromWhereTheirHipsFaceHoweverTheRigRests) {
+  const std::vector<double> hips{0.3, 1.7, -0.9, 0.3};
+  for (const double rest : {0.0, 0.6, kPi}) {
+    const std::vector<double> turns = told(on_the_spot(rest));
+    for (std::size_t c = 0; c < hips.size(); ++c) EXPECT_NEAR(turns[c], -hips[c], 0.02) << c;
+  }
+  EXPECT_EQ(told(gait_takes()), std::vector<double>(gait_takes().size(), 0));
+}
+
+TEST(ToldTurns, AreNoneOfTakesThatGoEachWhereTheyFace) {
+  std::vector<Clip> takes;
+  for (const double way : {0.0, 0.3, 0.6, 1.1}) takes.push_back(on_the_spot(way, way));
+  EXPECT_EQ(told(takes), std::vector<double>(4, 0));
+}
+
+TEST(ToldTurns, LetBuildLearnSidestepsAsThese) {
+  BuildOptions options = few_classes();
+  options.mirror = options.synthesize = false;
+  const Character c = build(humanoid(), on_the_spot(0), some_traces(), options);
+  const double ways[][2] = {{0, 2}, {-2, 0}, {2, 0}, {0, -2}};
+  for (const Fragment& f : c.pool.fragments) {
+    EXPECT_NEAR(f.evident.x, ways[f.clip][0], 0.3) << f.clip;
+    EXPECT_NEAR(f.evident.y, ways[f.clip][1], 0.3) << f.clip;
   }
 }
 

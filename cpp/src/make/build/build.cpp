@@ -96,9 +96,10 @@ FragmentPool captured_pool(const Kinematics& kinematics, const std::vector<Clip>
   const Skeleton& skeleton = kinematics.skeleton();
   FragmentPool pool{skeleton, {}, {}};
   const int takes = static_cast<int>(clips.size()), threads = thread_count(options.threads);
-  std::vector<Clip> captured =
-      parallel_map(takes, threads, [&](int c) { return in_rounds(kinematics, make_clip(skeleton, clips[c])); });
-  face_ahead(kinematics, captured);
+  std::vector<Clip> captured = parallel_map(takes, threads, [&](int c) { return make_clip(skeleton, clips[c]); });
+  const std::vector<double> told = take_told_turns(kinematics, captured);
+  captured = parallel_map(takes, threads, [&](int c) { return in_rounds(kinematics, std::move(captured[c])); });
+  face_ahead(kinematics, told, captured);
   std::vector<Contacts> contacts = put_level_on_one_floor(kinematics, captured, threads);
   std::vector<std::vector<int>> seams;
   cut(pool, std::move(captured), contacts, Origin::captured, options, seams);

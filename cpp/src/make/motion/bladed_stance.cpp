@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "motion/bladed_stance.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
+#include "base/rounding.hpp"
 #include "motion/contacts.hpp"
+#include "motion/facing.hpp"
 #include "motion/gait_scale.hpp"
 
 namespace fragmotion {
@@ -70,6 +74,49 @@ class Reader {
   Vector3 hips_ahead_, head_ahead_;
 };
 
+// Where the hips face in the first frame: what is around it tells.
+double first_facing(const Kinematics& kinematics, const Clip& clip) {
+  const int frames = std::min(clip.frames, static_cast<int>(std::ceil(clip.rate)) + 4);
+  const auto first = [&](const std::vector<double>& values) {
+    return std::vector<double>(values.begin(),
+                               values.begin() + static_cast<std::ptrdiff_t>(values.size() / clip.frames * frames));
+  };
+  const Clip begin{"", clip.rate, frames, first(clip.root_positions), first(clip.rotations), {}};
+  return facing(kinematics, begin)[0];
+}
+
+// Where a take goes, rad from where the rig faces at rest.
+double way_from_rest(const Kinematics& kinematics, const Clip& clip) {
+  const double* last = &clip.root_positions[std::size_t{3} * (clip.frames - 1)];
+  const Vector3 way = load_vector(last) - load_vector(clip.root_positions.data());
+  return wrapped(std::atan2(-way.x(), way.y()) - kinematics.rest_frame().heading);
+}
+
+// From the nearest of ahead, back, left and right, rad.
+double off_four_ways(double angle) { return std::abs(wrapped(4 * angle)) / 4; }
+
+// A take that is told to be on the spot: where it would go and where its hips face, rad from where the rig does at
+// rest.
+struct OnTheSpot {
+  std::size_t take;
+  double way, hips;
+};
+
+// Where they all face if they go straight ahead, back or aside: of the four ways the one that their hips are nearest
+// to.
+double common_facing(const std::vector<OnTheSpot>& takes) {
+  Vector2 sum = Vector2::Zero();
+  for (const OnTheSpot& take : takes) sum += Vector2(std::cos(4 * take.way), std::sin(4 * take.way));
+  double best = 0, least = std::numeric_limits<double>::infinity();
+  for (int quarter = 0; quarter < 4; ++quarter) {
+    const double facing = (std::atan2(sum.y(), sum.x()) + 2 * kPi * quarter) / 4;
+    double off = 0;
+    for (const OnTheSpot& take : takes) off += apart(take.hips, facing);
+    if (off < least) best = facing, least = off;
+  }
+  return best;
+}
+
 bool looks_ahead(const Going& going) { return std::abs(going.head) < apart(going.head, going.hips); }
 bool goes_ahead(const Going& going) { return std::abs(going.way) < apart(going.way, going.hips); }
 
@@ -94,11 +141,30 @@ double bladed_stance(const Kinematics& kinematics, const std::vector<Clip>& clip
   return ahead ? sum / count : 0;
 }
 
-void face_ahead(const Kinematics& kinematics, std::vector<Clip>& clips) {
-  const double turned = bladed_stance(kinematics, clips);
-  if (turned == 0) return;
-  for (Clip& clip : clips) {
-    for (double& heading : clip.headings) heading -= turned;
+std::vector<double> take_told_turns(const Kinematics& kinematics, std::vector<Clip>& takes) {
+  std::vector<double> turns(takes.size(), 0);
+  std::vector<OnTheSpot> told;
+  for (std::size_t c = 0; c < takes.size(); ++c) {
+    const double turn = wrapped(takes[c].headings[0] - first_facing(kinematics, takes[c]));
+    if (std::abs(turn) <= kRounding) continue;
+    for (double& heading : takes[c].headings) heading -= turn;
+    told.push_back({c, way_from_rest(kinematics, takes[c]), -turn});
+  }
+  const double facing = common_facing(told);
+  double by_hips = 0, by_facing = 0;
+  for (const OnTheSpot& each : told)
+    by_hips += off_four_ways(each.way - each.hips), by_facing += off_four_ways(each.way - facing);
+  if (by_facing >= by_hips) return turns;
+  for (const OnTheSpot& each : told) turns[each.take] = wrapped(facing - each.hips);
+  return turns;
+}
+
+void face_ahead(const Kinematics& kinematics, const std::vector<double>& told, std::vector<Clip>& clips) {
+  const double bladed = bladed_stance(kinematics, clips);
+  for (std::size_t c = 0; c < clips.size(); ++c) {
+    const double turn = told[c] != 0 ? told[c] : -bladed;
+    if (turn == 0) continue;
+    for (double& heading : clips[c].headings) heading += turn;
   }
 }
 
