@@ -109,6 +109,11 @@ TEST(ToldTurns, AreNoneOfTakesThatGoEachWhereTheyFace) {
   EXPECT_EQ(told(takes), std::vector<double>(4, 0));
 }
 
+TEST(ToldTurns, AreNoneOfTakesThatAllGoOneWay) {
+  EXPECT_EQ(told({on_the_spot(0, 0.2), on_the_spot(0.1, -0.1)}), std::vector<double>(2, 0));
+  EXPECT_NE(told({on_the_spot(0, 0.2), on_the_spot(kPi, 0.2)}), std::vector<double>(2, 0));
+}
+
 TEST(ToldTurns, LetBuildLearnSidestepsAsThese) {
   BuildOptions options = few_classes();
   options.mirror = options.synthesize = false;

@@ -117,6 +117,11 @@ double common_facing(const std::vector<OnTheSpot>& takes) {
   return best;
 }
 
+// Ahead, to the left, back or to the right of where a body faces.
+int nearest_way(double way, double facing) {
+  return static_cast<int>(std::lround(wrapped(way - facing) * 2 / kPi)) & 3;
+}
+
 bool looks_ahead(const Going& going) { return std::abs(going.head) < apart(going.head, going.hips); }
 bool goes_ahead(const Going& going) { return std::abs(going.way) < apart(going.way, going.hips); }
 
@@ -151,6 +156,10 @@ std::vector<double> take_told_turns(const Kinematics& kinematics, std::vector<Cl
     told.push_back({c, way_from_rest(kinematics, takes[c]), -turn});
   }
   const double facing = common_facing(told);
+  const auto goes_as_the_first = [&](const OnTheSpot& each) {
+    return nearest_way(each.way, facing) == nearest_way(told.front().way, facing);
+  };
+  if (std::all_of(told.begin(), told.end(), goes_as_the_first)) return turns;
   double by_hips = 0, by_facing = 0;
   for (const OnTheSpot& each : told)
     by_hips += off_four_ways(each.way - each.hips), by_facing += off_four_ways(each.way - facing);
