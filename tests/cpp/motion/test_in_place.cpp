@@ -132,26 +132,6 @@ TEST(FeetWay, IsNoneOfWhatGoesOrStands) {
   EXPECT_FALSE(find_feet_way(kinematics, gait_clip({0, 0, 1})));
 }
 
-// The hips' way, so many times as far, is in a file that was made for a body of another size.
-TEST(FeetWay, IsInPlaceOfHipsThatGoNotHalfAsFar) {
-  const Kinematics kinematics(humanoid());
-  for (const Gait& gait : {Gait{0, 3, 0, 1, 60, 0.5}, Gait{3, 0, 0, 1, 60, 0.5}, Gait{0, 3, 0, 4, 60, 0.5}}) {
-    const Clip real = gait_clip(gait);
-    for (const double times : {0.2, 0.4, 0.7, 1.5, -0.2}) {
-      Clip clip = real;
-      for (int f = 0; f < clip.frames; ++f) {
-        for (const int axis : {0, 1}) clip.root_positions[std::size_t{3} * f + axis] *= times;
-      }
-      const auto way = find_feet_way(kinematics, clip);
-      ASSERT_EQ(way.has_value(), times < 0.5) << times;
-      if (!way) continue;
-      EXPECT_NEAR(way->mean.norm(), 3, 0.15);
-      EXPECT_NEAR(way_of_hips(led(kinematics, clip, *way)) / way_of_hips(real), 1, 0.05);
-      EXPECT_NEAR(way_of_hips(led(kinematics, clip, *way, 2)) / way_of_hips(real), 2, 0.1);
-    }
-  }
-}
-
 TEST(WayAhead, IsStraightAheadWhateverTheFeetDo) {
   Skeleton footless = humanoid();
   footless.roles.left_foot = footless.roles.right_foot = -1;

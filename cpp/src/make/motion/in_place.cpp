@@ -78,12 +78,12 @@ std::optional<FeetWay> way_of(const Treading& treading, const std::vector<SolePa
   return way;
 }
 
-// As a pair of feet tells it; `straight`: whether the body does not turn whatever they do.
-std::optional<FeetWay> way_of(const std::vector<SolePath>& soles, const Clip& clip, double scale, bool straight) {
+// As a pair of feet tells it.
+std::optional<FeetWay> way_of(const std::vector<SolePath>& soles, const Clip& clip, double scale) {
   const Treading treading(soles, clip, scale);
   if (!treading.is_long_enough()) return std::nullopt;
   FeetWay way;
-  if (!straight && !turns(clip)) way.turn = treading.turn();
+  if (!turns(clip)) way.turn = treading.turn();
   if (std::abs(way.turn) < kTurns) way.turn = 0;
   const Vector2 center = middle(clip);
   const Velocities stands = treading.velocities(way.turn, center), strides = treading.striding(way.turn, center);
@@ -99,27 +99,13 @@ FeetWay halfway(FeetWay a, const FeetWay& b) {
 }
 
 // Of a four-legged body the mean of what the hind feet and the fore feet tell, if both do.
-std::optional<FeetWay> way_of(const Kinematics& kinematics, const Clip& clip, bool straight) {
+std::optional<FeetWay> way_of(const Kinematics& kinematics, const Clip& clip) {
   const double scale = standard_scale(kinematics.skeleton());
   const std::vector<SolePath> soles = find_soles(kinematics, clip);
-  const std::optional<FeetWay> way = way_of({soles.begin(), soles.begin() + 2}, clip, scale, straight);
+  const std::optional<FeetWay> way = way_of({soles.begin(), soles.begin() + 2}, clip, scale);
   if (!way || soles.size() == 2) return way;
-  const std::optional<FeetWay> fore = way_of({soles.begin() + 2, soles.end()}, clip, scale, straight);
+  const std::optional<FeetWay> fore = way_of({soles.begin() + 2, soles.end()}, clip, scale);
   return fore ? std::optional(halfway(*way, *fore)) : std::nullopt;
-}
-
-// Takes a cycle's drift from its hips, and returns it, m/s.
-Vector2 stay(Clip& clip, int period) {
-  const Vector2 drift = (root_at(clip, period) - root_at(clip, 0)) * clip.rate / period;
-  for (int f = 0; f < clip.frames; ++f) {
-    for (const int axis : {0, 1}) clip.root_positions[std::size_t{3} * f + axis] -= drift[axis] * f / clip.rate;
-  }
-  return drift;
-}
-
-// Whether feet that stand go farther over the ground than hips that drift.
-bool slides_farther(const FeetWay& way, const Vector2& drift) {
-  return (mean_velocity(way.velocities) - drift).norm() > drift.norm();
 }
 
 // The mean speed of each bone's end, seen from the hips, m/s.
@@ -175,20 +161,16 @@ bool may_go(const Kinematics& kinematics, const Clip& clip) {
 
 std::optional<FeetWay> find_feet_way(const Kinematics& kinematics, const Clip& held) {
   const Clip clip = without_held_end(held);
-  if (legs_with_feet(kinematics.skeleton().roles).empty()) return std::nullopt;
+  const Skeleton& skeleton = kinematics.skeleton();
+  if (legs_with_feet(skeleton.roles).empty() || !stays(kinematics, clip)) return std::nullopt;
   const int period = cycle_of(kinematics, clip);
-  const bool drifts = !stays(kinematics, clip);
-  if (drifts && period == 0) return std::nullopt;
-  Clip round = period > 0 ? unrolled(kinematics, clip, period, 2 * period + clip.frames) : clip;
-  if (drifts && turns(round)) return std::nullopt;
-  const Vector2 drift = drifts ? stay(round, period) : Vector2::Zero();
-  std::optional<FeetWay> way = way_of(kinematics, round, drifts);
-  if (!way || (drifts && !slides_farther(*way, drift))) return std::nullopt;
-  way->drift = drift;
+  const Clip round = period > 0 ? unrolled(kinematics, clip, period, 2 * period + clip.frames) : clip;
+  std::optional<FeetWay> way = way_of(kinematics, round);
+  if (!way) return way;
   way->velocities.erase(way->velocities.begin(), way->velocities.begin() + period);
   way->velocities.resize(clip.frames - 1);
   way->mean = seen_mean(way->velocities, clip);
-  way->velocities.resize(held.frames - 1, drift);
+  way->velocities.resize(held.frames - 1, Vector2::Zero());
   return way;
 }
 
@@ -199,7 +181,7 @@ std::vector<CharacterFrame> placements(const FeetWay& way, const Clip& clip, dou
   for (int f = 0; f < clip.frames; ++f) {
     const double turned = way.turn * faster * f / clip.rate;
     const Eigen::Rotation2Dd rotation(turned);
-    result[f] = {center + gone - rotation * center - way.drift * f / clip.rate, turned};
+    result[f] = {center + gone - rotation * center, turned};
     if (f + 1 < clip.frames) gone += rotation * way.velocities[f] * faster / clip.rate;
   }
   return result;

@@ -14,22 +14,19 @@ struct FeetWay {
   double turn = 0;                  ///< rad/s, left is positive; 0 of a body that is seen to turn
   Vector2 mean = Vector2::Zero();   ///< m/s: the mean velocity, as the body sees it: right, forward
   bool by_legs = false;             ///< How far legs with feet open tells it, for none of what stands does.
-  Vector2 drift = Vector2::Zero();  ///< m/s, in the clip's axes: its hips' own, in whose place this way is
 };
 
 /// Whether in most frames of a clip the hips are about where they are in the others: at the end a fall may lead away.
 bool stays_mostly(const Kinematics& kinematics, const Clip& clip);
 
 /// The way of a clip on the spot; nothing where the hips travel or the feet do not tread, and where the skeleton has
-/// not two feet. Hips that drift are on the spot where their feet, as they stand, slide farther than the hips go, as
-/// where a cycle was made for a body of another size: the way is in place of theirs. A foot that stands is still, so
-/// the body goes as the sole on the ground goes back: about as fast as most of what is low and level does
-/// (steadiest_speed()), for drawn feet may slap the ground or drag over it, and of what goes so the fastest tells, as
-/// nothing of a foot goes back over the ground. What goes slower than the grip of the body's weight allows (a change of
-/// velocity of 9.81 m/s^2) is a foot that lands or leaves. In a flight the velocity goes from what it was to what it
-/// will be. Of a cycle (cycle_of()) the ends are each other's neighbours. Where feet go forth and back on one path the
-/// body goes where it faces; where legs pass each other, as low the one as the other, in each step as far as they open.
-/// The frame rate tells nothing (Treading).
+/// not two feet. A foot that stands is still, so the body goes as the sole on the ground goes back: about as fast as
+/// most of what is low and level does (steadiest_speed()), for drawn feet may slap the ground or drag over it, and of
+/// what goes so the fastest tells, as nothing of a foot goes back over the ground. What goes slower than the grip of
+/// the body's weight allows (a change of velocity of 9.81 m/s^2) is a foot that lands or leaves. In a flight the
+/// velocity goes from what it was to what it will be. Of a cycle (cycle_of()) the ends are each other's neighbours.
+/// Where feet go forth and back on one path the body goes where it faces; where legs pass each other, as low the one as
+/// the other, in each step as far as they open. The frame rate tells nothing (Treading).
 std::optional<FeetWay> find_feet_way(const Kinematics& kinematics, const Clip& clip);
 
 /// Straight ahead at `speed` m/s, where the clip faces on the mean, whatever its feet do; nothing where the hips
