@@ -186,6 +186,13 @@ inline FragmentPool gait_pool(const std::vector<Clip>& clips, double size = 1, c
   return pool;
 }
 
+/// How many fragments each clip of the pool has.
+inline std::vector<int> fragments_by_clip(const FragmentPool& pool) {
+  std::vector<int> counts(pool.clips.size(), 0);
+  for (const Fragment& fragment : pool.fragments) ++counts[fragment.clip];
+  return counts;
+}
+
 /// The clip turned by `heading` about z and then moved on the ground.
 inline Clip moved(const Skeleton& skeleton, Clip clip, const CharacterFrame& move) {
   for (int f = 0; f < clip.frames; ++f) {

@@ -295,6 +295,25 @@ TEST(Doctor, CutsCalibrationPosesOff) {
   }
 }
 
+// The arms hang after 20 frames of a T pose and 10 in which they are lowered; the last of these are less than half out.
+TEST(Doctor, CutsTheSwingOutOfATPoseOff) {
+  const Take clean = walk();
+  Take pose = picked(clean, std::vector<int>(30, 0));
+  for (int f = 0; f < pose.frames; ++f) {
+    const double raised = kPi / 2 * std::min(1.0, (30 - f) / 10.0);
+    store_quaternion(Quaternion(Eigen::AngleAxisd(-raised, Vector3::UnitY())), rotation(pose, f, "upper_arm.L"));
+    store_quaternion(Quaternion(Eigen::AngleAxisd(raised, Vector3::UnitY())), rotation(pose, f, "upper_arm.R"));
+  }
+  pose.frames += clean.frames;
+  pose.translations.insert(pose.translations.end(), clean.translations.begin(), clean.translations.end());
+  pose.rotations.insert(pose.rotations.end(), clean.rotations.begin(), clean.rotations.end());
+  const std::vector<Finding> findings = examine({&pose})[0].findings;
+  ASSERT_EQ(findings.size(), 1u);
+  EXPECT_EQ(findings[0].code, "calibration");
+  EXPECT_EQ(findings[0].begin, 0);
+  EXPECT_NEAR(findings[0].end, 26, 1);
+}
+
 TEST(Doctor, TellsAJumpInTheMiddle) {
   Take take = walk();
   for (int f = 45; f < take.frames; ++f) place(take, f)[0] += 1.5;

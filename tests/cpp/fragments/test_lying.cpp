@@ -19,12 +19,6 @@ FragmentPool cut_with_a_sunk_one(const Skeleton& skeleton, const Clip& clip, dou
   return pool;
 }
 
-std::vector<int> fragments_by_clip(const FragmentPool& pool) {
-  std::vector<int> counts(pool.clips.size(), 0);
-  for (const Fragment& fragment : pool.fragments) ++counts[fragment.clip];
-  return counts;
-}
-
 TEST(Lying, ADogsFragmentsAreLeftOut) {
   const Skeleton skeleton = dog();
   FragmentPool pool = cut_with_a_sunk_one(skeleton, dog_clip({}, false, "walk"), 0.5);

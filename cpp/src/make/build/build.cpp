@@ -20,6 +20,7 @@
 #include "fragments/lying.hpp"
 #include "fragments/packed_pool.hpp"
 #include "fragments/synthesis.hpp"
+#include "fragments/t_poses.hpp"
 #include "fragments/whole_jumps.hpp"
 #include "motion/bladed_stance.hpp"
 #include "motion/cycle.hpp"
@@ -275,9 +276,10 @@ Material prepare(const Skeleton& skeleton, const std::vector<Clip>& clips, const
   check_stature(kinematics.skeleton());
   MirrorImages images;
   FragmentPool pool = captured_pool(kinematics, clips, options, images);
-  c.report["captured"] = static_cast<double>(pool.fragments.size());
   double usual = 0;
   c.space = perform(pool, kinematics, options, usual);
+  drop_t_poses(pool, c.space);
+  c.report["captured"] = static_cast<double>(pool.fragments.size());
   report_held(c, pool);
   c.report["cut_seconds"] = stage.lap();
   report(progress, 0.5, "Synthesizing fragments");

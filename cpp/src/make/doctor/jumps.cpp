@@ -5,6 +5,7 @@
 #include "doctor/basis.hpp"
 #include "doctor/check.hpp"
 #include "doctor/runs.hpp"
+#include "motion/arms_out.hpp"
 
 namespace fragmotion {
 namespace {
@@ -46,14 +47,10 @@ bool is_calibration(const Patient& patient, const Run& run) {
   return run.length() <= kAtEnd * patient.rate() && run.length() < patient.frames() / 2 && is_held(patient, run);
 }
 
-bool has_arms_out(const Patient& patient, int frame) {
-  Vector3 right = patient.head(frame, patient.arms[1].top) - patient.head(frame, patient.arms[0].top);
-  right.normalize();
-  for (int side = 0; side < 2; ++side) {
-    const Vector3 arm = patient.head(frame, patient.arms[side].end) - patient.head(frame, patient.arms[side].top);
-    if (!(arm.normalized().dot(side == 0 ? -right : right) > kNearAxis)) return false;
-  }
-  return true;
+double arms_out_in(const Patient& patient, int frame) {
+  const auto& [left, right] = patient.arms;
+  const auto head = [&](int bone) { return patient.head(frame, bone); };
+  return arms_out(head(left.top), head(left.end), head(right.top), head(right.end));
 }
 
 bool hips_stand(const Patient& patient, const Run& run) {
@@ -62,11 +59,18 @@ bool hips_stand(const Patient& patient, const Run& run) {
   return way.norm() * patient.scale() < kStill * run.length() / patient.rate();
 }
 
-/// The frames at the start, or from the end on, in which the arms are held out.
-Run arms_out(const Patient& patient, bool at_start) {
+/// How many frames, from one end of the take on, hold the arms so far out.
+int held_out(const Patient& patient, bool at_start, double least) {
   const int last = patient.frames() - 1;
   int count = 0;
-  while (patient.has_arms() && count <= last && has_arms_out(patient, at_start ? count : last - count)) ++count;
+  while (patient.has_arms() && count <= last && arms_out_in(patient, at_start ? count : last - count) > least) ++count;
+  return count;
+}
+
+/// The frames of a T pose at an end of the take, with the swing of the arms to it or back.
+Run t_pose(const Patient& patient, bool at_start) {
+  const bool is_held = held_out(patient, at_start, kArmsOut) >= kShortestStep * patient.rate();
+  const int count = is_held ? held_out(patient, at_start, kArmsHalfOut) : 0, last = patient.frames() - 1;
   return at_start ? Run{0, count - 1} : Run{last - count + 1, last};
 }
 
@@ -86,10 +90,9 @@ void add_held_poses(const Patient& patient, Findings& findings) {
 
 void add_arms_out(const Patient& patient, Findings& findings) {
   for (const bool at_start : {true, false}) {
-    const Run run = arms_out(patient, at_start);
+    const Run run = t_pose(patient, at_start);
     const bool told = covers(findings, at_start ? Run{0, 0} : Run{patient.frames() - 1, patient.frames() - 1});
-    if (!told && run.length() >= kShortestStep * patient.rate() && run.length() < patient.frames() / 2 &&
-        hips_stand(patient, run))
+    if (!told && run.length() > 0 && run.length() < patient.frames() / 2 && hips_stand(patient, run))
       findings.push_back(calibration(run, "a T pose"));
   }
 }
