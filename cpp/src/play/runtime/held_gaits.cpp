@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/rounding.hpp"
+#include "policy/answer.hpp"
 
 namespace fragmotion {
 namespace {
@@ -57,7 +58,10 @@ class GaitSearch {
     count_ = 0;
     const bool is_held = character_.space.asks_to_go(control) && !control.jumps();
     const int fragments = is_held ? static_cast<int>(may_play_.size()) : 0;
-    for (int f = 0; f < fragments; ++f) may_play_[f] = cost_.may_go_on(f, control) ? 1 : 0;
+    for (int f = 0; f < fragments; ++f) {
+      const Control& evident = character_.pool.fragments[f].evident;
+      may_play_[f] = goes_along(evident.x, evident.y, control) && cost_.may_go_on(f, control) ? 1 : 0;
+    }
     for (int f = 0; f < fragments; ++f) look(f, control);
     std::vector<int> gait(count_);
     for (int& f : gait) f = begins_, begins_ = successors_[f];
@@ -68,21 +72,29 @@ class GaitSearch {
   // At those that begin with a fragment.
   void look(int first, const Control& control) {
     int count = 0;
-    Footfalls falls;
     Control mean;
     double seconds = 0;
     for (int f = first; f >= 0 && may_play_[f] != 0 && count < kLanes; f = successors_[f]) {
       const Fragment& fragment = character_.pool.fragments[f];
       const double lasts = character_.pool.seconds(fragment);
-      falls.add(steps_[f], static_cast<float>(seconds), static_cast<float>(lasts));
       ++count;
       mean = between(mean, fragment.evident, lasts / (seconds += lasts));
       const float performing = cost_.of_performing(mean, first, control);
       if (successors_[f] < 0 || performing >= least_) continue;
       const float whole = performing + cost_.of_closing(successors_[f], first, seconds);
-      if (whole < least_ && falls.are_in_turns(static_cast<float>(seconds)))
-        least_ = whole, begins_ = first, count_ = count;
+      if (whole < least_ && steps_in_turns(first, count)) least_ = whole, begins_ = first, count_ = count;
     }
+  }
+
+  bool steps_in_turns(int first, int count) const {
+    Footfalls falls;
+    double seconds = 0;
+    for (int f = first; count-- > 0; f = successors_[f]) {
+      const double lasts = character_.pool.seconds(character_.pool.fragments[f]);
+      falls.add(steps_[f], static_cast<float>(seconds), static_cast<float>(lasts));
+      seconds += lasts;
+    }
+    return falls.are_in_turns(static_cast<float>(seconds));
   }
 
   const Character& character_;
