@@ -66,6 +66,7 @@ inline std::shared_ptr<const Character> with_split_bones(const Character& charac
   result->pool = pack(pool);
   result->legs = resting_legs(split.skeleton);
   result->entry_poses = entry_poses(result->pool);
+  measure_looks_and_arms(*result);
   result->bridges = stand_bridges(pool.fragments, trajectories(result->pool, 2), character.classes, character.space);
   return result;
 }

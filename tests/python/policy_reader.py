@@ -129,7 +129,7 @@ def read_policy(data: bytes) -> Policy:
     assert data[:8] == b"FRAGMOTN"
     version, size = struct.unpack_from("<IQ", data, 8)
     payload = data[20 : 20 + size]
-    assert version in (3, 4, 5) and len(data) == 20 + size + 8
+    assert version in (3, 4, 5, 6) and len(data) == 20 + size + 8
     assert struct.unpack("<Q", data[-8:]) == (checksum(payload, version),)
     read = Bytes(payload)
     bones = [read.text() for _ in range(read.one("Q"))]
@@ -137,6 +137,8 @@ def read_policy(data: bytes) -> Policy:
     rest, offsets, tips = (np.array([read.some("d", n) for _ in range(read.one("Q"))]) for n in (4, 3, 3))
     roles = dict(zip((*ROLES, *THIGHS), read.some("i", 10)))
     styles = [read_style(read, version)]
+    if version > 5:  # looks and arms
+        read.numbers("f4"), read.some("d", 7 + 2 * 4)
     moves: list[tuple[str, int, bool, float, int, int]] = []
     if read.section("moves"):
         for _ in range(read.one("Q")):

@@ -51,7 +51,7 @@ def test_mirrored_clips_are_the_mirror_images_of_their_originals(character: core
         assert np.abs(signs * read.rotations - image.rotations).max() < 1e-6
 
 
-@pytest.mark.parametrize("version", [3, 4])
+@pytest.mark.parametrize("version", [3, 4, 5])
 def test_it_reads_the_files_of_all_versions(version: int) -> None:
     data = (DATA / f"version-{version}.policy").read_bytes()
     policy, character = read_policy(data), core.Character.from_bytes(data)

@@ -17,10 +17,11 @@ std::string refusal_of_styles(const std::vector<StyledCharacter>& styles) {
   return error_of([&] { with_styles(styles); });
 }
 
-// As it is without its style's name.
+// As it is without its style's name and the other styles.
 std::string bytes_alone(Character character) {
   character.style.clear();
   character.styles.clear();
+  measure_looks_and_arms(character);
   return to_bytes(character);
 }
 

@@ -126,6 +126,12 @@ TEST(PolicyFile, RefusesCharactersThatDoNotFitTogether) {
          for (auto* part : {&c.pool.skeleton.tips, &c.pool.skeleton.offsets}) part->assign(4, {0, 0, 1e-9});
        }},
       {"hinge of a leg", [](Character& c) { c.legs[0].hinge *= 1.1; }},
+      {"looks of other bones", [](Character& c) { c.looks.fastest.push_back(1); }},
+      {"look not finite", [=](Character& c) { c.looks.gaze.turn = nan; }},
+      {"look that is nowhere", [](Character& c) { c.looks.gaze.forward *= 0; }},
+      {"look down that is up", [](Character& c) { c.looks.gaze.down = 0.1; }},
+      {"elbow without an axis", [](Character& c) { c.arms[1].arm.hinge *= 0; }},
+      {"arm beyond all directions", [](Character& c) { c.arms[0].widest = 4; }},
       {"rate out of all proportion", [](Character& c) { c.pool.clips[0].rate = 1e5; }},
       {"fragment under 20 ms", [](Character& c) { c.pool.clips[0].rate = 550; }},
       {"label too high", [](Character& c) { c.classes.labels[0] = 2; }},
@@ -347,6 +353,7 @@ TEST(PolicyFile, PlaysFinitePosesWhateverItsRolesAre) {
       const int bone = random.below(forged.pool.skeleton.size() + 1) - 1;
       if (random.below(3) == 0 && (name != "hips" || bone >= 0)) forged.pool.skeleton.roles.*role = bone;
     }
+    measure_looks_and_arms(forged);
     SCOPED_TRACE(n);
     EXPECT_TRUE(accepts(unchecked_bytes(forged)));
   }

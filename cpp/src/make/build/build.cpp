@@ -298,6 +298,7 @@ Material prepare(const Skeleton& skeleton, const std::vector<Clip>& clips, const
   report(progress, 0.9, "Measuring fragments");
   material.trajectories = trajectories(pool, kPoses, options.threads, std::move(material.trajectories));
   c.entry_poses = entry_poses(c.pool);
+  measure_looks_and_arms(c);
   for (const Trace& trace : traces) material.traces.push_back(snap(c.space, able_trace(c.speeds, trace)));
   c.report["measure_seconds"] = stage.lap();
   return material;

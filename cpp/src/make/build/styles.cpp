@@ -60,6 +60,7 @@ Character with_styles(const std::vector<StyledCharacter>& styles) {
     other.entry_poses = entry_poses(other.pool);
     result.styles.push_back(std::make_shared<const Character>(std::move(other)));
   }
+  measure_looks_and_arms(result);
   return result;
 }
 

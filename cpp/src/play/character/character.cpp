@@ -36,6 +36,13 @@ std::vector<Control> evident_of_classes(const Character& character) {
   return evident;
 }
 
+void measure_looks_and_arms(Character& character) {
+  std::vector<const PackedPool*> pools;
+  for (int style = 0; style < character.style_count(); ++style) pools.push_back(&character.in_style(style).pool);
+  character.looks = looks_in(pools);
+  character.arms = arm_ranges(pools);
+}
+
 void repair_policies(Character& character) {
   const std::vector<Control> evident = evident_of_classes(character);
   for (Policy& policy : character.policies) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <map>
 #include <memory>
 #include <string>
@@ -9,7 +10,9 @@
 #include "character/move.hpp"
 #include "classes/classes.hpp"
 #include "control/control.hpp"
+#include "fragments/arm_range.hpp"
 #include "fragments/fragment.hpp"
+#include "fragments/look.hpp"
 #include "fragments/speed_range.hpp"
 #include "motion/contacts.hpp"
 #include "policy/policy.hpp"
@@ -30,6 +33,8 @@ struct Character {
   std::vector<double> control_model;
   std::vector<Contacts> contacts;  ///< Of each clip of the pool: contacts_of(); of a move, find_plants().
   Legs legs;                       ///< As they bend in the clips.
+  Looks looks;                     ///< looks_in() all styles; of the first one alone.
+  std::array<ArmRange, 2> arms;    ///< arm_ranges(), likewise.
   std::vector<Move> moves;         ///< Their clips are the pool's last ones.
   std::string style;               ///< What its takes have in common; empty where there is one style alone.
   /// In its other styles, on the same skeleton: each a character without moves and further styles.
@@ -70,6 +75,9 @@ void check_style(const Character& character, int style);
 
 /// What the representative of each class is evident of.
 std::vector<Control> evident_of_classes(const Character& character);
+
+/// Finds what heads and arms do in all its styles.
+void measure_looks_and_arms(Character& character);
 
 /// repair_policy() and answer_motion() of all its policies; what is repaired stays as it is.
 void repair_policies(Character& character);

@@ -9,6 +9,7 @@
 
 #include "base/ranges.hpp"
 #include "base/rounding.hpp"
+#include "base/take_limits.hpp"
 #include "motion/trunk.hpp"
 
 namespace fragmotion {
@@ -166,6 +167,17 @@ void check_styles(const Character& c) {
 }
 
 }  // namespace
+
+void check_looks_and_arms(const Character& c) {
+  const GazeRange& gaze = c.looks.gaze;
+  const std::vector<double> fastest(c.looks.fastest.begin(), c.looks.fastest.end());
+  const auto is_unit = [](const Vector3& v) { return std::abs(v.norm() - 1) < kFloatRounding; };
+  require(fastest.size() == look_bones(c.pool.skeleton).size() && all_in_range(fastest, 0, kPi * kHighestRate) &&
+              is_unit(gaze.forward) && all_in_range({gaze.turn, gaze.chest, -gaze.down, gaze.up}, 0, kPi),
+          "looks");
+  for (const ArmRange& range : c.arms)
+    require(is_unit(range.arm.hinge) && all_in_range({range.widest}, 0, kPi), "arms");
+}
 
 void check_character(const Character& c) {
   check_style(c);

@@ -9,4 +9,7 @@ namespace fragmotion {
 /// be to be saved and played, in each of its styles.
 void check_character(const Character& character);
 
+/// Likewise of its looks and arms, which files of before version 6 do not hold.
+void check_looks_and_arms(const Character& character);
+
 }  // namespace fragmotion

@@ -342,6 +342,19 @@ void exchange_fore_legs(Archive& a, Character& c) {
   }
 }
 
+// The bones are found anew by their roles.
+template <typename Archive>
+void exchange_looks_and_arms(Archive& a, Character& c) {
+  GazeRange& gaze = c.looks.gaze;
+  a.template numbers<float>(c.looks.fastest);
+  exchange_vector(a, gaze.forward);
+  for (double* angle : {&gaze.turn, &gaze.chest, &gaze.down, &gaze.up}) a.template number<double>(*angle);
+  for (ArmRange& range : c.arms) {
+    exchange_vector(a, range.arm.hinge);
+    a.template number<double>(range.widest);
+  }
+}
+
 inline bool has_markers(const Character& c) {
   for (int style = 0; style < c.style_count(); ++style) {
     for (const PackedClip& clip : c.in_style(style).pool.clips) {
@@ -356,6 +369,7 @@ template <typename Archive>
 void exchange(Archive& a, Character& c) {
   exchange_skeleton(a, c.pool.skeleton);
   exchange_style(a, c);
+  if (a.version >= 6) exchange_looks_and_arms(a, c);
   if (a.section("moves", !c.moves.empty())) exchange_moves(a, c.moves);
   if (a.section("styles", !c.style.empty())) exchange_styles(a, c);
   if (a.section("markers", has_markers(c))) exchange_markers(a, c);

@@ -53,6 +53,18 @@ void complete(Character& c, std::uint32_t version) {
   c.move_parts = move_parts(c.pool, c.moves);
 }
 
+// The same, of all styles.
+void complete_looks_and_arms(Character& c, std::uint32_t version) {
+  const std::array<Arm, 2> arms = resting_arms(c.pool.skeleton);
+  for (int side = 0; side < 2; ++side) {
+    const Vector3 hinge = c.arms[side].arm.hinge;
+    c.arms[side].arm = arms[side];
+    c.arms[side].arm.hinge = hinge;
+  }
+  if (version < 6) measure_looks_and_arms(c);
+  check_looks_and_arms(c);
+}
+
 }  // namespace
 
 // Each word is folded, so that its high bits are mixed as well.
@@ -85,6 +97,7 @@ std::string unchecked_bytes(const Character& character) {
 std::string to_bytes(const Character& character) {
   try {
     check_character(character);
+    check_looks_and_arms(character);
     std::string bytes = unchecked_bytes(character);
     check_memory(character, bytes.size());
     return bytes;
@@ -122,8 +135,13 @@ Character from_bytes(std::string_view bytes, const std::string& name) {
     check_character(character);
     check_memory(character, bytes.size());
     complete(character, version);
-    for (const auto& style : character.styles)
-      complete(const_cast<Character&>(*style), version);  // which from_bytes() made
+    complete_looks_and_arms(character, version);
+    for (const auto& style : character.styles) {
+      auto& other = const_cast<Character&>(*style);  // which from_bytes() made
+      complete(other, version);
+      other.looks = character.looks;
+      other.arms = character.arms;
+    }
     return character;
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument(name + " is refused: " + error.what());

@@ -14,7 +14,7 @@ namespace fragmotion {
 constexpr std::string_view kPolicyMagic = "FRAGMOTN";
 
 /// Of the files that are written, and of the oldest ones that are read.
-constexpr std::uint32_t kPolicyVersion = 5, kOldestPolicyVersion = 3;
+constexpr std::uint32_t kPolicyVersion = 6, kOldestPolicyVersion = 3;
 
 /// A character as bytes: "FRAGMOTN", version, length, payload, checksum of the payload (docs/game.md); little-endian.
 /// Throws std::invalid_argument on a character that from_bytes would refuse.

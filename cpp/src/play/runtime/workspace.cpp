@@ -19,13 +19,15 @@ Workspace::Workspace(const Character& character, const PlayerConstants& constant
       body(std::make_shared<FootLock::Body>(kinematics, character.legs, constants.feet)),
       floors(usual_floors(character.contacts)),
       look(look_bones(kinematics.skeleton())),
+      fastest_looks(character.looks.fastest),
+      gaze(character.looks.gaze),
       trunk(kinematics.skeleton()),
+      arms(character.arms),
       move_entries(entry_poses(character.pool, character.move_parts)),
       tips{BodyTips(character.pool.skeleton), BodyTips(character.pool.skeleton), BodyTips(character.pool.skeleton)},
       onward(character.entry_poses.size() / character.pool.fragments.size()),
       unpacked(character.pool.skeleton.size()) {
   std::size_t most = 0;
-  std::vector<const PackedPool*> pools;
   std::vector<FragmentLists> lists;
   for (int style = 0; style < character.style_count(); ++style) {
     const Character& c = character.in_style(style);
@@ -41,13 +43,8 @@ Workspace::Workspace(const Character& character, const PlayerConstants& constant
     }
     lists.push_back({&c, std::move(members), std::move(steps), std::move(cost), step_seconds(c), std::move(next)});
     most = std::max(most, c.pool.fragments.size());
-    pools.push_back(&c.pool);
   }
   styles = std::make_shared<const std::vector<FragmentLists>>(std::move(lists));
-  Looks found = looks_in(pools);
-  fastest_looks = std::move(found.fastest);
-  gaze = found.gaze;
-  arms = arm_ranges(pools);
   std::vector<int> hands;
   for (const ArmRange& range : arms) {
     if (range.arm.exists()) hands.push_back(range.arm.hand);

@@ -49,12 +49,12 @@ struct Workspace {
   Floors floors;  ///< The medians of those of the takes.
   std::shared_ptr<const std::vector<FragmentLists>> styles;
   std::vector<int> look;             ///< look_bones()
-  std::vector<float> fastest_looks;  ///< looks_in() all styles
-  GazeRange gaze;                    ///< Likewise.
-  std::vector<int> head_chain;       ///< From the hips to the head,
-  std::vector<int> spine;            ///< and what of it is above the legs and below the look's.
+  std::vector<float> fastest_looks;  ///< Looks::fastest
+  GazeRange gaze;
+  std::vector<int> head_chain;  ///< From the hips to the head,
+  std::vector<int> spine;       ///< and what of it is above the legs and below the look's.
   Trunk trunk;
-  std::array<ArmRange, 2> arms;     ///< arm_ranges() of all styles
+  std::array<ArmRange, 2> arms;
   std::vector<int> arm_chains;      ///< From the hips to the hands of these.
   std::vector<float> move_entries;  ///< entry_poses() of the moves' parts
 
