@@ -20,14 +20,14 @@ endif()
 message(STATUS "mathematics: musl's, compiled in from ${FRAGMOTION_MUSL_DIR}")
 enable_language(C)
 set(functions acos asin atan atan2 exp exp2 expm1 hypot log log1p log2 pow tanh)
-set(parts __cos __math_divzero __math_invalid __math_oflow __math_uflow __math_xflow __rem_pio2 __rem_pio2_large __sin
-    __tan exp_data log2_data log_data pow_data scalbn)
+set(parts __math_divzero __math_invalid __math_oflow __math_uflow __math_xflow __rem_pio2 __rem_pio2_large __tan
+    exp_data log2_data log_data pow_data scalbn)
 set(sources ${functions} ${parts})
 list(TRANSFORM sources REPLACE "(.+)" "${musl}/src/math/\\1.c")
 add_library(fragmotion_math_objects OBJECT ${sources} cpp/src/play/same_math/trigonometry.c)
 # The headers of a 32-bit processor are right for all, as far as these go: Windows' long has 32 bits, too.
 target_include_directories(fragmotion_math_objects PRIVATE
-  "${musl}/arch/generic" "${musl}/src/include" "${musl}/src/internal" "${musl}/include")
+  "${musl}/arch/generic" "${musl}/src/include" "${musl}/src/internal" "${musl}/src/math" "${musl}/include")
 target_include_directories(fragmotion_math_objects SYSTEM PRIVATE
   "${FRAGMOTION_MUSL_DIR}/include/arm-linux-musl" "${FRAGMOTION_MUSL_DIR}/include/generic-musl")
 target_compile_options(fragmotion_math_objects PRIVATE
