@@ -297,8 +297,10 @@ Material prepare(const Skeleton& skeleton, const std::vector<Clip>& clips, const
   c.report["synthesize_seconds"] = stage.lap();
   report(progress, 0.9, "Measuring fragments");
   material.trajectories = trajectories(pool, kPoses, options.threads, std::move(material.trajectories));
-  c.entry_poses = entry_poses(c.pool);
-  measure_looks_and_arms(c);
+  parallel_for(2, thread_count(options.threads), [&](int begin, int end) {
+    if (begin == 0) c.entry_poses = entry_poses(c.pool);
+    if (end == 2) measure_looks_and_arms(c);
+  });
   for (const Trace& trace : traces) material.traces.push_back(snap(c.space, able_trace(c.speeds, trace)));
   c.report["measure_seconds"] = stage.lap();
   return material;
