@@ -11,6 +11,7 @@
 #include "base/turn_between.hpp"
 #include "fragments/cutting.hpp"
 #include "fragments/evident.hpp"
+#include "motion/discontinuities.hpp"
 #include "skeleton/roles.hpp"
 
 namespace fragmotion {
@@ -176,7 +177,7 @@ inline FragmentPool gait_pool(const std::vector<Clip>& clips, double size = 1, c
   const ControlSpace standard(1.2 * size, 3.3 * size, ControlSpace().turn_rate(), 1.8 / stature(skeleton));
   std::vector<BodyMotion> motions;
   for (int c = 0; c < static_cast<int>(clips.size()); ++c) {
-    cut_fragments(pool, c, find_contacts(kinematics, clips[c]), options);
+    cut_fragments(pool, c, find_contacts(kinematics, clips[c]), discontinuities(skeleton, clips[c]), options);
     motions.push_back(body_motion(kinematics, clips[c]));
   }
   const double usual = usual_height(motions);

@@ -206,10 +206,10 @@ TEST(CutFragments, WithoutFeetCutsWindows) {
   EXPECT_TRUE(contacts.feet[0].empty());
   EXPECT_TRUE(contacts.feet[1].empty());
   FragmentPool pool{skeleton, {clip}, {}}, windows = pool;
-  cut_fragments(pool, 0, contacts, {});
+  cut_fragments(pool, 0, contacts, {}, {});
   CutOptions options;
   options.at_gait_events = false;
-  cut_fragments(windows, 0, contacts, options);
+  cut_fragments(windows, 0, contacts, {}, options);
   ASSERT_EQ(pool.fragments.size(), windows.fragments.size());
   ASSERT_FALSE(pool.fragments.empty());
   for (std::size_t i = 0; i < pool.fragments.size(); ++i)

@@ -15,7 +15,7 @@ FragmentPool cut_with_a_sunk_one(const Skeleton& skeleton, const Clip& clip, dou
   for (int f = 0; f < low.frames; ++f) low.root_positions[std::size_t{3} * f + 2] -= sunk;
   FragmentPool pool{skeleton, {clip, clip, low}, {}};
   const Kinematics kinematics(skeleton);
-  for (int c = 0; c < 3; ++c) cut_fragments(pool, c, find_contacts(kinematics, pool.clips[c]), {});
+  for (int c = 0; c < 3; ++c) cut_fragments(pool, c, find_contacts(kinematics, pool.clips[c]), {}, {});
   return pool;
 }
 

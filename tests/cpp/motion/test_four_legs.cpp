@@ -37,7 +37,7 @@ TEST(FourLegs, GaitsAreCutByHindFeetAndLongPiecesByTheOthers) {
     FragmentPool pool{skeleton, {clip}, {}};
     CutOptions options;
     options.longest = longest;
-    cut_fragments(pool, 0, contacts, options);
+    cut_fragments(pool, 0, contacts, {}, options);
     std::vector<int> begins;
     for (const Fragment& f : pool.fragments) begins.push_back(f.begin);
     return begins;

@@ -63,13 +63,13 @@ std::vector<Contacts> all_contacts(const Kinematics& kinematics, const std::vect
                       [&](int c) { return find_contacts(kinematics, clips[c]); });
 }
 
-// Adds clips with these contacts, cuts them and marks their fragments; the discontinuities of each come after `seams`.
-void cut(FragmentPool& pool, std::vector<Clip> clips, const std::vector<Contacts>& contacts, Origin origin,
-         const BuildOptions& options, std::vector<std::vector<int>>& seams) {
+// Adds clips with these contacts and discontinuities, cuts them and marks their fragments.
+void cut(FragmentPool& pool, std::vector<Clip> clips, const std::vector<Contacts>& contacts,
+         const std::vector<std::vector<int>>& seams, Origin origin, const BuildOptions& options) {
   const std::size_t before = pool.fragments.size();
   for (std::size_t c = 0; c < clips.size(); ++c) {
     pool.clips.push_back(std::move(clips[c]));
-    seams.push_back(cut_fragments(pool, static_cast<int>(pool.clips.size()) - 1, contacts[c], options.cut));
+    cut_fragments(pool, static_cast<int>(pool.clips.size()) - 1, contacts[c], seams[c], options.cut);
   }
   drop_lying(pool, before);
   for (std::size_t i = before; i < pool.fragments.size(); ++i) pool.fragments[i].origin = origin;
@@ -102,8 +102,9 @@ FragmentPool captured_pool(const Kinematics& kinematics, const std::vector<Clip>
   captured = parallel_map(takes, threads, [&](int c) { return in_rounds(kinematics, std::move(captured[c])); });
   face_ahead(kinematics, told, captured);
   std::vector<Contacts> contacts = put_level_on_one_floor(kinematics, captured, threads);
-  std::vector<std::vector<int>> seams;
-  cut(pool, std::move(captured), contacts, Origin::captured, options, seams);
+  const std::vector<std::vector<int>> seams =
+      parallel_map(takes, threads, [&](int c) { return discontinuities(skeleton, captured[c]); });
+  cut(pool, std::move(captured), contacts, seams, Origin::captured, options);
   if (pool.fragments.empty()) {
     throw std::invalid_argument("the takes are too short: none holds a fragment of " +
                                 std::to_string(options.cut.shortest) + " s");
@@ -113,9 +114,9 @@ FragmentPool captured_pool(const Kinematics& kinematics, const std::vector<Clip>
     std::vector<Clip> mirrored = parallel_map(takes, threads, [&](int c) { return mirror(pool.clips[c]); });
     contacts = all_contacts(kinematics, mirrored, threads);
     images = mirror_images(mirror.turns(), takes);
-    cut(pool, std::move(mirrored), contacts, Origin::mirrored, options, seams);
+    cut(pool, std::move(mirrored), contacts, seams, Origin::mirrored, options);
   }
-  for (std::size_t c = 0; c < seams.size(); ++c) close_way(seams[c], pool.clips[c]);
+  for (std::size_t c = 0; c < pool.clips.size(); ++c) close_way(seams[c % takes], pool.clips[c]);
   return pool;
 }
 

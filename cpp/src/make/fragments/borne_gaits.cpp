@@ -64,13 +64,14 @@ GaitEdit with(GaitEdit edit, double hips, double hurry) {
 
 }  // namespace
 
-BorneGaits::BorneGaits(const Kinematics& kinematics, const Legs& legs, const FragmentPool& pool, double most_hurry)
+BorneGaits::BorneGaits(const Kinematics& kinematics, const Legs& legs, const FragmentPool& pool, double most_hurry,
+                       int threads)
     : kinematics_(kinematics),
       legs_(legs),
       pool_(pool),
       most_hurry_(most_hurry),
-      leg_ranges_(thighs_and_knees(legs), pool.clips),
-      spine_ranges_(spine_bones(pool.skeleton), pool.clips) {}
+      leg_ranges_(thighs_and_knees(legs), pool.clips, threads),
+      spine_ranges_(spine_bones(pool.skeleton), pool.clips, threads) {}
 
 GaitEdit BorneGaits::of(const Clip& clip, int number, int begin, int end, const GaitEdit& edit) {
   GaitEdit changed = edit;

@@ -15,7 +15,8 @@ namespace fragmotion {
 class BorneGaits {
  public:
   /// Of the clips that there are now. Steps are hurried at most so many times.
-  BorneGaits(const Kinematics& kinematics, const Legs& legs, const FragmentPool& pool, double most_hurry);
+  BorneGaits(const Kinematics& kinematics, const Legs& legs, const FragmentPool& pool, double most_hurry,
+             int threads = 1);
 
   /// An edit of the cycle that goes from a frame to another of a clip, of which `number` tells it from others. Where
   /// the thighs or knees would leave their ranges further than in the cycle itself, or as it steps in place or straight

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "base/ranges.hpp"
-#include "motion/discontinuities.hpp"
 
 namespace fragmotion {
 
@@ -65,7 +64,8 @@ void check(const CutOptions& options) {
   require_range("the longest fragment (s)", options.longest, kLeastLongest, kLongest);
 }
 
-std::vector<int> cut_fragments(FragmentPool& pool, int clip, const Contacts& contacts, const CutOptions& options) {
+void cut_fragments(FragmentPool& pool, int clip, const Contacts& contacts, const std::vector<int>& seams,
+                   const CutOptions& options) {
   check(options);
   const Clip& source = pool.clips[clip];
   const int shortest = std::max(1, static_cast<int>(std::ceil(options.shortest * source.rate - 1e-6)));
@@ -82,14 +82,12 @@ std::vector<int> cut_fragments(FragmentPool& pool, int clip, const Contacts& con
     cutter.lifts = foot_lifts(contacts);
     cutter.fore_strikes = fore_foot_strikes(contacts);
   }
-  std::vector<int> seams = discontinuities(pool.skeleton, source);
   int begin = 0;
   for (const int found : seams) {
     cutter.cut(begin, found - 1);
     begin = found;
   }
   cutter.cut(begin, source.frames - 1);
-  return seams;
 }
 
 }  // namespace fragmotion

@@ -19,8 +19,9 @@ void check(const CutOptions& options);
 /// that is longer than `longest` is cut where a foot leaves the ground, too, as in the middle of a swing the one foot
 /// is where the other is in the next. What is still longer is divided into equal parts, or into parts of `longest`
 /// without the rest where equal ones would be shorter than `shortest`; cuts nearer than `shortest` are dropped. No
-/// fragment goes over one of the clip's discontinuities(), which are returned. Throws std::invalid_argument on a limit
-/// out of its range, and on limits with no whole number of frames between them for this clip's rate.
-std::vector<int> cut_fragments(FragmentPool& pool, int clip, const Contacts& contacts, const CutOptions& options);
+/// fragment goes over one of `seams`, its discontinuities(). Throws std::invalid_argument on a limit out of its range,
+/// and on limits with no whole number of frames between them for this clip's rate.
+void cut_fragments(FragmentPool& pool, int clip, const Contacts& contacts, const std::vector<int>& seams,
+                   const CutOptions& options);
 
 }  // namespace fragmotion

@@ -113,7 +113,7 @@ class Synthesizer {
         kinematics_(pool.skeleton),
         legs_(find_legs(kinematics_, pool.clips)),
         trajectories_(trajectories(pool, kPoses, threads, known)),
-        borne_gaits_(kinematics_, legs_, pool, kMostTempo),
+        borne_gaits_(kinematics_, legs_, pool, kMostTempo, threads),
         originals_(static_cast<int>(pool.fragments.size())),
         next_(std::move(next)),
         cycles_(closed_cycles(pool, trajectories_, space, takes)) {

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/decompositions.hpp"
+#include "base/parallel.hpp"
 #include "base/rates.hpp"
 #include "motion/pose.hpp"
 
@@ -80,7 +81,8 @@ TurnRanges together(const std::vector<TurnRanges>& by_take, std::size_t joints, 
   return all;
 }
 
-JointRanges::JointRanges(const std::vector<int>& bones, const std::vector<Clip>& clips) : ranges_(bones.size()) {
+JointRanges::JointRanges(const std::vector<int>& bones, const std::vector<Clip>& clips, int threads)
+    : joints_(bones.size()), ranges_(bones.size()) {
   const auto each_pose = [&](const std::function<void(const double*)>& visit) {
     for (const Clip& clip : clips) {
       const std::size_t width = clip.rotations.size() / clip.frames;
@@ -88,9 +90,12 @@ JointRanges::JointRanges(const std::vector<int>& bones, const std::vector<Clip>&
       for (int f = 0; f < clip.frames; f += step) visit(&clip.rotations[width * f]);
     }
   };
-  joints_ = joint_axes(bones, each_pose);
-  each_pose([&](const double* rotations) {
-    for (std::size_t j = 0; j < joints_.size(); ++j) ranges_[j].add(joints_[j].turn(rotations));
+  parallel_for(static_cast<int>(bones.size()), threads, [&](int begin, int end) {
+    const std::vector<JointAxes> found = joint_axes({bones.begin() + begin, bones.begin() + end}, each_pose);
+    std::copy(found.begin(), found.end(), joints_.begin() + begin);
+    each_pose([&](const double* rotations) {
+      for (int j = begin; j < end; ++j) ranges_[j].add(joints_[j].turn(rotations));
+    });
   });
 }
 

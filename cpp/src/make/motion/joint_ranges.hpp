@@ -46,7 +46,7 @@ TurnRanges together(const std::vector<TurnRanges>& by_take, std::size_t joints, 
 /// The ranges of some joints in takes, of which it looks at ten poses a second.
 class JointRanges {
  public:
-  JointRanges(const std::vector<int>& bones, const std::vector<Clip>& clips);
+  JointRanges(const std::vector<int>& bones, const std::vector<Clip>& clips, int threads = 1);
 
   /// How far the joint is beyond its range that is furthest beyond, rad.
   double excess(const double* rotations) const;
