@@ -31,7 +31,8 @@ target_include_directories(fragmotion_math_objects PRIVATE
 target_include_directories(fragmotion_math_objects SYSTEM PRIVATE
   "${FRAGMOTION_MUSL_DIR}/include/arm-linux-musl" "${FRAGMOTION_MUSL_DIR}/include/generic-musl")
 target_compile_options(fragmotion_math_objects PRIVATE
-  -nostdinc -U__FP_FAST_FMA -ffunction-sections -fdata-sections -w $<$<CONFIG:Release>:-O2>)
+  -nostdinc -U__FP_FAST_FMA -ffunction-sections -fdata-sections -w $<$<CONFIG:Release>:-O2>
+  $<$<C_COMPILER_ID:GNU>:-fno-align-jumps>)
 set_target_properties(fragmotion_math_objects PROPERTIES C_VISIBILITY_PRESET hidden)
 add_library(fragmotion_math INTERFACE)
 # As objects, since a linker may search the system's archives before ours: zig's for Windows does.

@@ -131,7 +131,7 @@ TEST(PolicyFile, RefusesCharactersThatDoNotFitTogether) {
       {"look that is nowhere", [](Character& c) { c.looks.gaze.forward *= 0; }},
       {"look down that is up", [](Character& c) { c.looks.gaze.down = 0.1; }},
       {"elbow without an axis", [](Character& c) { c.arms[1].arm.hinge *= 0; }},
-      {"arm beyond all directions", [](Character& c) { c.arms[0].widest = 4; }},
+      {"arm that points nowhere", [](Character& c) { c.arms[0].widest = -1; }},
       {"rate out of all proportion", [](Character& c) { c.pool.clips[0].rate = 1e5; }},
       {"fragment under 20 ms", [](Character& c) { c.pool.clips[0].rate = 550; }},
       {"label too high", [](Character& c) { c.classes.labels[0] = 2; }},

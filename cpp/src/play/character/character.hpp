@@ -33,7 +33,7 @@ struct Character {
   std::vector<double> control_model;
   std::vector<Contacts> contacts;  ///< Of each clip of the pool: contacts_of(); of a move, find_plants().
   Legs legs;                       ///< As they bend in the clips.
-  Looks looks;                     ///< looks_in() all styles; of the first one alone.
+  Looks looks;                     ///< looks_in() all its styles.
   std::array<ArmRange, 2> arms;    ///< arm_ranges(), likewise.
   std::vector<Move> moves;         ///< Their clips are the pool's last ones.
   std::string style;               ///< What its takes have in common; empty where there is one style alone.

@@ -169,14 +169,13 @@ void check_styles(const Character& c) {
 }  // namespace
 
 void check_looks_and_arms(const Character& c) {
-  const GazeRange& gaze = c.looks.gaze;
-  const std::vector<double> fastest(c.looks.fastest.begin(), c.looks.fastest.end());
-  const auto is_unit = [](const Vector3& v) { return std::abs(v.norm() - 1) < kFloatRounding; };
-  require(fastest.size() == look_bones(c.pool.skeleton).size() && all_in_range(fastest, 0, kPi * kHighestRate) &&
-              is_unit(gaze.forward) && all_in_range({gaze.turn, gaze.chest, -gaze.down, gaze.up}, 0, kPi),
-          "looks");
-  for (const ArmRange& range : c.arms)
-    require(is_unit(range.arm.hinge) && all_in_range({range.widest}, 0, kPi), "arms");
+  const auto& [fastest, gaze] = c.looks;
+  std::vector<double> values(fastest.begin(), fastest.end());
+  values.insert(values.end(), {gaze.turn, gaze.chest, -gaze.down, gaze.up, c.arms[0].widest, c.arms[1].widest});
+  bool fit = fastest.size() == look_bones(c.pool.skeleton).size() && all_in_range(values, 0, kPi * kHighestRate);
+  for (const Vector3* axis : {&gaze.forward, &c.arms[0].arm.hinge, &c.arms[1].arm.hinge})
+    fit = fit && std::abs(axis->norm() - 1) < kFloatRounding;
+  require(fit, "looks and arms");
 }
 
 void check_character(const Character& c) {
