@@ -6,7 +6,6 @@
 #include <numeric>
 #include <set>
 #include <stdexcept>
-#include <thread>
 
 #include "base/parallel.hpp"
 #include "base/random.hpp"
@@ -144,11 +143,15 @@ class Clustering {
 template <typename Find>
 std::vector<Classes> in_runs(std::size_t count, int threads, const Find& find, const Progress& progress) {
   const int runs = static_cast<int>(count);
-  const auto calling = std::this_thread::get_id();
-  return parallel_map(runs, threads, [&](int run) {
-    if (std::this_thread::get_id() == calling) report(progress, static_cast<double>(run) / runs, kStage);
-    return find(run, std::max(1, threads / runs));
+  std::vector<Classes> found(runs);
+  parallel_for(runs, threads, [&](int begin, int end) {
+    const bool calling = begin == 0;
+    for (int run = begin; run < end; ++run) {
+      if (calling) report(progress, static_cast<double>(run) / end, kStage);
+      found[run] = find(run, std::max(1, threads / runs));
+    }
   });
+  return found;
 }
 
 // Finds classes among some of the fragments.
