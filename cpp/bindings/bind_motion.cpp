@@ -133,6 +133,11 @@ Clip with_markers(Clip clip, const Markers& markers) {
   return clip;
 }
 
+Clip as_led(Clip clip) {
+  clip.led = true;
+  return clip;
+}
+
 double too_far(const Skeleton& skeleton, const std::vector<Clip>& clips) {
   check_bones(clips, skeleton);
   return bobs_too_far(Kinematics(skeleton), clips);
@@ -222,6 +227,8 @@ void bind_clip(py::module_& m) {
                                return view(clip.rotations, {clip.frames, bones, 4}, self);
                              })
       .def_property_readonly("markers", &markers_of)
+      .def_readonly("led", &Clip::led)
+      .def("as_led", &as_led)
       .def("with_markers", &with_markers, py::arg("markers"), py::call_guard<GilRelease>())
       .def(
           "world_transforms",

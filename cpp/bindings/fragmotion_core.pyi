@@ -287,6 +287,10 @@ class Clip:
     rotations: Doubles
     markers: list[tuple[float, str]]
     """What an animator has marked, by the frame, from 0: there a game is told of it as the character plays it."""
+    led: bool
+    """Whether it was shown on the spot, and its way is what its feet told."""
+    def as_led(self) -> Clip:
+        """The clip, which was so before its way was written into its file."""
     def with_markers(self, markers: Sequence[tuple[float, str]]) -> Clip:
         """The clip with these markers alone. ValueError where one has no name, is outside of the clip, or is before the
         one before it."""

@@ -32,6 +32,8 @@ def lead_by_feet(
 ) -> list[Clip]:
     """An Action's clips on their ways, at the Action's speed where the user told one; and the Doctor tells it. Motions
     that follow each other in one Action are parts of it, each on its own way."""
+    if any(row.code == IN_PLACE and row.mended for row in action.fragmotion.findings):
+        clips = [clip.as_led() for clip in clips]
     ways = [led_by_feet(clip, skeleton, action.fragmotion.speed) for clip in clips]
     times = np.empty(0) if all(_is_whole(way) for way in ways) else sample_times(scene, obj, action)
     speeds = [way[0].speed for way in ways if _is_whole(way) and way[0].speed and way[0].by_feet]

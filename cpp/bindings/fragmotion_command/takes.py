@@ -186,4 +186,4 @@ def part_of(clip: core.Clip, skeleton: core.Skeleton, name: str, part: slice) ->
     """Some frames of a clip, with their markers, as a clip of that name."""
     markers = [(at - part.start, text) for at, text in clip.markers if part.start <= at <= part.stop - 1]
     cut = core.Clip(skeleton, name, clip.rate, clip.root_positions[part], clip.rotations[part])
-    return cut.with_markers(markers)
+    return (cut.as_led() if clip.led else cut).with_markers(markers)

@@ -47,6 +47,21 @@ def test_the_doctor_tells_how_fast_the_feet_go(addon: ModuleType, speeds: dict[s
     assert not bpy.data.actions["stand"].fragmotion.findings
 
 
+def test_what_mend_gives_its_way_is_still_known_as_shown_on_the_spot(
+    addon: ModuleType, speeds: dict[str, float]
+) -> None:
+    assert bpy.ops.fragmotion.build("EXEC_DEFAULT") == {"FINISHED"}
+    obj = bpy.context.view_layer.objects.active
+    action, rig = bpy.data.actions["walk forward"], addon.rig.rigs.make_rig(obj)
+    (row,) = (row for row in action.fragmotion.findings if row.code == "in_place")
+    assert addon.mocap.mending.mend_finding(bpy.context, obj, action, row)
+    assert speed_of(addon, obj, action.name) == pytest.approx(speeds[action.name], rel=0.05)
+    for name, known in (("walk forward", True), ("stand", False)):
+        clip = addon.mocap.sampling.sample(bpy.context, obj, bpy.data.actions[name], rig)
+        rest = bpy.context.scene, obj, bpy.data.actions[name], [clip], rig.skeleton
+        assert [each.led for each in addon.mocap.on_the_spot.lead_by_feet(*rest)] == [known]
+
+
 def test_a_few_clips_make_a_character_that_goes_everywhere(addon: ModuleType, speeds: dict[str, float]) -> None:
     assert bpy.ops.fragmotion.build("EXEC_DEFAULT") == {"FINISHED"}
     obj = bpy.context.view_layer.objects.active

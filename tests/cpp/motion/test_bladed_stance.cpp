@@ -92,7 +92,7 @@ std::vector<Clip> on_the_spot(double turned) {
   return clips;
 }
 
-std::vector<double> told(std::vector<Clip> takes) { return take_told_turns(Kinematics(humanoid()), takes); }
+std::vector<double> told(const std::vector<Clip>& takes) { return take_told_turns(Kinematics(humanoid()), takes); }
 
 TEST(ToldTurns, AreThoseOfClipsOnTheSpotFromWhereTheirHipsFaceHoweverTheRigRests) {
   const std::vector<double> hips{0.3, 1.7, -0.9, 0.3};
@@ -112,6 +112,24 @@ TEST(ToldTurns, AreNoneOfTakesThatGoEachWhereTheyFace) {
 TEST(ToldTurns, AreNoneOfTakesThatAllGoOneWay) {
   EXPECT_EQ(told({on_the_spot(0, 0.2), on_the_spot(0.1, -0.1)}), std::vector<double>(2, 0));
   EXPECT_NE(told({on_the_spot(0, 0.2), on_the_spot(kPi, 0.2)}), std::vector<double>(2, 0));
+}
+
+TEST(ToldTurns, AreThoseOfATakeWhoseWayIsKeptInItsFile) {
+  const std::vector<Clip> clips = on_the_spot(0);
+  std::vector<Clip> kept;
+  for (const Clip& clip : clips) kept.push_back(clip_from_take(humanoid(), take_from_clip(humanoid(), clip)));
+  EXPECT_EQ(told(kept), std::vector<double>(4, 0));
+  for (Clip& clip : kept) clip.led = true;
+  const std::vector<double> turns = told(clips), again = told(kept);
+  for (std::size_t c = 0; c < turns.size(); ++c) EXPECT_NEAR(again[c], turns[c], 0.01) << c;
+}
+
+TEST(ToldTurns, AreNoneOfTakesThatTurn) {
+  std::vector<Clip> clips = on_the_spot(0);
+  for (Clip& clip : clips) {
+    for (int f = 0; f < clip.frames; ++f) clip.headings[f] += f / clip.rate;
+  }
+  EXPECT_EQ(told(clips), std::vector<double>(4, 0));
 }
 
 TEST(ToldTurns, LetBuildLearnSidestepsAsThese) {

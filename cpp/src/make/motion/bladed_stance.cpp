@@ -6,10 +6,9 @@
 #include <limits>
 #include <optional>
 
-#include "base/rounding.hpp"
 #include "motion/contacts.hpp"
-#include "motion/facing.hpp"
 #include "motion/gait_scale.hpp"
+#include "motion/in_place.hpp"
 
 namespace fragmotion {
 namespace {
@@ -74,17 +73,6 @@ class Reader {
   Vector3 hips_ahead_, head_ahead_;
 };
 
-// Where the hips face in the first frame: what is around it tells.
-double first_facing(const Kinematics& kinematics, const Clip& clip) {
-  const int frames = std::min(clip.frames, static_cast<int>(std::ceil(clip.rate)) + 4);
-  const auto first = [&](const std::vector<double>& values) {
-    return std::vector<double>(values.begin(),
-                               values.begin() + static_cast<std::ptrdiff_t>(values.size() / clip.frames * frames));
-  };
-  const Clip begin{"", clip.rate, frames, first(clip.root_positions), first(clip.rotations), {}};
-  return facing(kinematics, begin)[0];
-}
-
 // Where a take goes, rad from where the rig faces at rest.
 double way_from_rest(const Kinematics& kinematics, const Clip& clip) {
   const double* last = &clip.root_positions[std::size_t{3} * (clip.frames - 1)];
@@ -146,26 +134,26 @@ double bladed_stance(const Kinematics& kinematics, const std::vector<Clip>& clip
   return ahead ? sum / count : 0;
 }
 
-std::vector<double> take_told_turns(const Kinematics& kinematics, std::vector<Clip>& takes) {
-  std::vector<double> turns(takes.size(), 0);
+std::vector<double> take_told_turns(const Kinematics& kinematics, const std::vector<Clip>& takes) {
+  std::vector<double> result(takes.size(), 0);
   std::vector<OnTheSpot> told;
   for (std::size_t c = 0; c < takes.size(); ++c) {
-    const double turn = wrapped(takes[c].headings[0] - first_facing(kinematics, takes[c]));
-    if (std::abs(turn) <= kRounding) continue;
-    for (double& heading : takes[c].headings) heading -= turn;
-    told.push_back({c, way_from_rest(kinematics, takes[c]), -turn});
+    if (!takes[c].led || turns(takes[c])) continue;
+    told.push_back(
+        {c, way_from_rest(kinematics, takes[c]), wrapped(mean_facing(takes[c]) - kinematics.rest_frame().heading)});
   }
+  if (told.empty()) return result;
   const double facing = common_facing(told);
   const auto goes_as_the_first = [&](const OnTheSpot& each) {
     return nearest_way(each.way, facing) == nearest_way(told.front().way, facing);
   };
-  if (std::all_of(told.begin(), told.end(), goes_as_the_first)) return turns;
+  if (std::all_of(told.begin(), told.end(), goes_as_the_first)) return result;
   double by_hips = 0, by_facing = 0;
   for (const OnTheSpot& each : told)
     by_hips += off_four_ways(each.way - each.hips), by_facing += off_four_ways(each.way - facing);
-  if (by_facing >= by_hips) return turns;
-  for (const OnTheSpot& each : told) turns[each.take] = wrapped(facing - each.hips);
-  return turns;
+  if (by_facing >= by_hips) return result;
+  for (const OnTheSpot& each : told) result[each.take] = wrapped(facing - each.hips);
+  return result;
 }
 
 void face_ahead(const Kinematics& kinematics, const std::vector<double>& told, std::vector<Clip>& clips) {

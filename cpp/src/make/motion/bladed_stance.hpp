@@ -14,11 +14,11 @@ namespace fragmotion {
 /// face; and one take at least goes there.
 double bladed_stance(const Kinematics& kinematics, const std::vector<Clip>& clips);
 
-/// How far to the left, rad, each take faces from where its hips do, of takes that led() put on their way, which it
-/// tells by their headings; these are those of their hips afterwards. The body of a game is turned by what plays its
-/// clips, so that all face the same and go straight ahead, back or aside from there, and hips that turn to where a
-/// sidestep goes do not face there. All 0 where the takes all go one way, or so more nearly as their hips see it.
-std::vector<double> take_told_turns(const Kinematics& kinematics, std::vector<Clip>& takes);
+/// How far to the left, rad, each take faces from where its hips do, of those that are Clip::led and do not turn. The
+/// body of a game is turned by what plays its clips, so that all face the same and go straight ahead, back or aside
+/// from there, and hips that turn to where a sidestep goes do not face there. All 0 where the takes all go one way, or
+/// so more nearly as their hips see it.
+std::vector<double> take_told_turns(const Kinematics& kinematics, const std::vector<Clip>& takes);
 
 /// The takes, facing as their body does: their headings, those of their hips, turned as is told, or else without the
 /// turn of a bladed stance, the same in all of them.

@@ -46,18 +46,6 @@ bool tread(const std::vector<SolePath>& soles, double way) {
   return gone < kTreads * way;
 }
 
-// Whether the body is seen to turn: its feet may then turn with it as they stand.
-bool turns(const Clip& clip) {
-  return std::abs(clip.headings.back() - clip.headings.front()) * clip.rate > kTurns * (clip.frames - 1);
-}
-
-// Where the clip faces on the mean, rad.
-double mean_facing(const Clip& clip) {
-  Vector2 facing = Vector2::Zero();
-  for (const double heading : clip.headings) facing += Eigen::Rotation2Dd(heading) * Vector2::UnitY();
-  return std::atan2(-facing.x(), facing.y());
-}
-
 // The mean, as the body sees it.
 Vector2 seen_mean(const Velocities& velocities, const Clip& clip) {
   Velocities seen;
@@ -129,6 +117,16 @@ std::vector<double> bone_speeds(const Kinematics& kinematics, const Clip& clip) 
 
 }  // namespace
 
+bool turns(const Clip& clip) {
+  return std::abs(clip.headings.back() - clip.headings.front()) * clip.rate > kTurns * (clip.frames - 1);
+}
+
+double mean_facing(const Clip& clip) {
+  Vector2 facing = Vector2::Zero();
+  for (const double heading : clip.headings) facing += Eigen::Rotation2Dd(heading) * Vector2::UnitY();
+  return std::atan2(-facing.x(), facing.y());
+}
+
 bool stays_mostly(const Kinematics& kinematics, const Clip& clip) {
   std::vector<double> x, y;
   for (int f = 0; f < clip.frames; ++f) x.push_back(root_at(clip, f).x()), y.push_back(root_at(clip, f).y());
@@ -188,7 +186,6 @@ std::vector<CharacterFrame> placements(const FeetWay& way, const Clip& clip, dou
 }
 
 Clip led(const Kinematics& kinematics, Clip clip, const FeetWay& way, double faster) {
-  const double ahead = way.turn != 0 || turns(clip) ? 0 : wrapped(kinematics.rest_frame().heading - mean_facing(clip));
   const std::vector<CharacterFrame> places = placements(way, clip, faster);
   const std::size_t bones = kinematics.bones(), hips = kinematics.skeleton().roles.hips;
   for (int f = 0; f < clip.frames; ++f) {
@@ -197,8 +194,9 @@ Clip led(const Kinematics& kinematics, Clip clip, const FeetWay& way, double fas
     clip.root_positions[std::size_t{3} * f + 1] = place.y();
     double* rotation = &clip.rotations[4 * (bones * f + hips)];
     store_quaternion(places[f].rotation() * load_quaternion(rotation), rotation);
-    clip.headings[f] += places[f].heading + ahead;
+    clip.headings[f] += places[f].heading;
   }
+  clip.led = true;
   return clip;
 }
 

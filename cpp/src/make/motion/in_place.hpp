@@ -16,6 +16,12 @@ struct FeetWay {
   bool by_legs = false;             ///< How far legs with feet open tells it, for none of what stands does.
 };
 
+/// Whether the body is seen to turn: its feet may then turn with it as they stand.
+bool turns(const Clip& clip);
+
+/// Where the clip faces on the mean, rad.
+double mean_facing(const Clip& clip);
+
 /// Whether in most frames of a clip the hips are about where they are in the others: at the end a fall may lead away.
 bool stays_mostly(const Kinematics& kinematics, const Clip& clip);
 
@@ -41,8 +47,7 @@ bool may_go(const Kinematics& kinematics, const Clip& clip);
 /// All is `faster` times as fast.
 std::vector<CharacterFrame> placements(const FeetWay& way, const Clip& clip, double faster = 1);
 
-/// The clip on its way. Where it does not turn its headings are as its rig faces at rest on the mean, wherever its hips
-/// do: by that take_told_turns() knows it.
+/// The clip on its way; it is Clip::led.
 Clip led(const Kinematics& kinematics, Clip clip, const FeetWay& way, double faster = 1);
 
 }  // namespace fragmotion

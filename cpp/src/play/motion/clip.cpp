@@ -178,6 +178,7 @@ Clip part(const Clip& clip, int begin, int end) {
   result.headings = copy(clip.headings, 1);
   result.rotations = copy(clip.rotations, bones);
   result.markers = markers_in_rounds(clip.markers, begin, result.frames, result.frames);
+  result.led = clip.led;
   return result;
 }
 

@@ -22,6 +22,7 @@ struct Clip {
   std::vector<double> rotations;       ///< [frames, bones, 4]: the hips' in the world, every other bone's in its parent
   std::vector<double> headings;        ///< [frames] rad, unwrapped: where the character faces; see facing.hpp
   std::vector<Marker> markers = {};    ///< By their frames.
+  bool led = false;                    ///< Was shown on the spot; its way is what its feet told.
 };
 
 /// Checks shapes, finite numbers, rate, the hips' places and at least two frames, and makes the quaternions unit,
