@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -30,9 +30,10 @@ _REST = {
 CHANNELS = tuple(_REST)
 """What poses a bone, or an object."""
 _BEYOND_KEYS = ("scale", "rotation_mode", "delta_location", "delta_rotation_euler", "delta_rotation_quaternion")
+_AS_ONE = 1e-3  # a bone's scale that differs from 1 by less shows as 1.000, as importers of FBX key it in all bones
 
 
-def is_needed(obj: bpy.types.Object, curves: Iterable[tuple[str, int]]) -> bool:
+def is_needed(obj: bpy.types.Object, curves: Mapping[tuple[str, int], bpy.types.FCurve]) -> bool:
     """Whether anything but location and rotation keys of the bones and the object moves the armature."""
     drivers = obj.animation_data.drivers if obj.animation_data else ()
     return (
@@ -41,10 +42,24 @@ def is_needed(obj: bpy.types.Object, curves: Iterable[tuple[str, int]]) -> bool:
         or any(not driver.mute for driver in drivers)
         or any(not constraint.mute for bone in obj.pose.bones for constraint in bone.constraints)
         or any(bone.inherit_scale != "FULL" for bone in obj.data.bones)
-        or any(path.startswith("pose.") and path.rpartition(".")[2] in _BEYOND_KEYS for path, _ in curves)
+        or any(
+            path.startswith("pose.") and path.rpartition(".")[2] in _BEYOND_KEYS and not _is_one(path, curve)
+            for (path, _), curve in curves.items()
+        )
         or any(path in _BEYOND_KEYS for path, _ in curves)
         or any((*obj.delta_location, *obj.delta_rotation_euler))
     )
+
+
+def _is_one(path: str, curve: bpy.types.FCurve) -> bool:
+    """Whether a curve is of a scale that is 1 throughout, as it is without it."""
+    if not path.endswith(".scale") or curve.modifiers or not curve.keyframe_points:
+        return False
+    points = np.empty((3, 2 * len(curve.keyframe_points)), np.float32)
+    for channel, row in zip(("co", "handle_left", "handle_right"), points):
+        curve.keyframe_points.foreach_get(channel, row)
+    told = points if len(curve.keyframe_points) > 1 else points[:1]  # a single key has no use for handles
+    return bool(np.abs(told[:, 1::2] - 1).max() < _AS_ONE)
 
 
 def sample_poses(

@@ -32,7 +32,7 @@ def check_sampling(addon: ModuleType, obj: bpy.types.Object, action: bpy.types.A
 
 def uses_poses(addon: ModuleType, obj: bpy.types.Object, action: bpy.types.Action) -> bool:
     """Whether sampling would step frame by frame."""
-    curves = [(c.data_path, c.array_index) for c in addon.compat.versions.curves_of(action, obj)]
+    curves = {(c.data_path, c.array_index): c for c in addon.compat.versions.curves_of(action, obj)}
     return bool(addon.rig.posing.is_needed(obj, curves))
 
 
@@ -136,6 +136,20 @@ def test_scale_that_is_not_inherited(addon: ModuleType, scale: str) -> None:
     action = making.add_action(obj, FRAMES)
     assert uses_poses(addon, obj, action)
     check_sampling(addon, obj, action)
+
+
+@pytest.mark.parametrize("scale", [1, 1.2])
+def test_scale_that_is_keyed_matters_where_it_is_not_one(addon: ModuleType, scale: float) -> None:
+    """Blender's FBX importer keys a scale of 1 in all bones."""
+    obj = making.add_armature()
+    action = making.add_action(obj, FRAMES)
+    for bone in obj.pose.bones:
+        for frame in (1, FRAMES):
+            bone.scale = (scale if frame > 1 and bone.name == "spine" else 1,) * 3
+            bone.keyframe_insert("scale", frame=frame)
+    assert uses_poses(addon, obj, action) == (scale != 1)
+    if scale == 1:
+        check_sampling(addon, obj, action)
 
 
 def test_channels_without_keys_rest_whatever_the_pose_is_now(addon: ModuleType) -> None:
