@@ -22,7 +22,7 @@ BAKED = "fragmotion_baked"
 _RATES = (1e-3, 1e5)  # frames a second that a take can have
 _BONE = re.compile(r'pose\.bones\["((?:[^"\\]|\\.)*)"\]\.')
 _OWN_SHARE = 1 / 2  # of the bones that the Action animates, so many must be the armature's ...
-_ARMATURE_SHARE = 1 / 4  # ... and so many of the armature's (fingers and helpers may rest)
+_ARMATURE_SHARE = 1 / 4  # ... and so many of the armature's (fingers and helpers may rest), where others have them, too
 _cache: dict[tuple[object, ...], bool] = {}
 
 
@@ -39,9 +39,16 @@ def animated_bones(action: bpy.types.Action, obj: bpy.types.Object) -> set[str]:
 
 
 def fits(action: bpy.types.Action, obj: bpy.types.Object) -> bool:
-    """Whether most of what the Action animates is this armature's."""
+    """Whether most of what the Action animates is this armature's: many of its bones, or those of no other armature."""
     known = _known_bones(action, obj)
-    return known > 0 and known >= _ARMATURE_SHARE * len(obj.data.bones)
+    return known > 0 and (known >= _ARMATURE_SHARE * len(obj.data.bones) or _is_of_it_alone(action, obj))
+
+
+def _is_of_it_alone(action: bpy.types.Action, obj: bpy.types.Object) -> bool:
+    """Whether the armature has all bones that an Action animates, and no other does: an Idle may move a head alone."""
+    animated = animated_bones(action, obj)
+    having = [armature for armature in bpy.data.armatures if animated <= set(armature.bones.keys())]
+    return having == [obj.data]
 
 
 def with_own_bones(obj: bpy.types.Object) -> Iterator[bpy.types.Action]:
@@ -71,7 +78,14 @@ def fits_cached(action: bpy.types.Action, obj: bpy.types.Object) -> bool:
     """As `fits`, quick enough for drawing; a bake is not offered."""
     if BAKED in action:
         return False
-    key = (bpy.data.filepath, action.name, versions.count_curves(action), obj.name, len(obj.data.bones))
+    key = (
+        bpy.data.filepath,
+        action.name,
+        versions.count_curves(action),
+        obj.name,
+        len(obj.data.bones),
+        len(bpy.data.armatures),
+    )
     if key not in _cache:
         if len(_cache) > 10_000:
             _cache.clear()

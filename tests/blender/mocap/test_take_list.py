@@ -59,3 +59,15 @@ def test_build_folds_away_what_led_to_it(addon: ModuleType) -> None:
     assert not (settings.show_mocap or settings.show_build or any(panel.poll(bpy.context) for panel in subs))
     settings.show_mocap = True
     assert [panel.poll(bpy.context) for panel in subs] == [True, False]
+
+
+def test_what_moves_a_head_alone_is_offered_to_the_one_armature_that_has_it(addon: ModuleType) -> None:
+    """An animal's Idle; that of a prop with a bone of the same name is not taken for one."""
+    obj, fits = making.add_armature(), addon.mocap.actions.fits
+    assert len(obj.data.bones) > 4
+    obj.pose.bones["head"].keyframe_insert("rotation_quaternion", frame=1)
+    action = obj.animation_data.action
+    assert fits(action, obj) and addon.mocap.actions.fitting(obj) == [action]
+    prop = making.add_armature([("head", None, (0, 0, 0), (0, 0, 1))], name="Prop")
+    assert not fits(action, obj) and addon.mocap.actions.fitting(obj) == []
+    assert fits(action, prop)
