@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -177,6 +178,39 @@ TEST(Synthesize, StandsOnForLong) {
     } else {
       EXPECT_GT(standing, 20) << seconds;
     }
+  }
+}
+
+// A stand of two seconds that leans from side to side so many times, faster in a fragment than one would stand in it.
+Clip leaning(double times) {
+  Gait gait;
+  gait.y = 0, gait.seconds = 2;
+  Clip clip = gait_clip(gait, "idle");
+  const double height = clip.root_positions[2];
+  for (int f = 0; f < clip.frames; ++f) {
+    const double lean = 0.08 / height * std::sin(2 * kPi * times * f / (clip.frames - 1));
+    clip.root_positions[std::size_t{3} * f] += height * std::sin(lean);
+    double* hips = &clip.rotations[std::size_t{4} * (f * kSkeleton.size() + kSkeleton.roles.hips)];
+    store_quaternion(Quaternion{Eigen::AngleAxisd(lean, Vector3::UnitY())} * load_quaternion(hips), hips);
+  }
+  return make_clip(kSkeleton, clip);
+}
+
+TEST(Synthesize, StandsAsALoopDoesThatShiftsItsWeight) {
+  const ControlSpace space(1.2, 3, 1.2, 1.8 / stature(kSkeleton));
+  for (const double times : {1.0, 1.25}) {
+    std::vector<Clip> clips = gait_takes();
+    clips.erase(clips.begin());
+    clips.push_back(leaning(times));
+    const FragmentPool pool = synthesized(clips, space);
+    const bool is_made =
+        std::any_of(pool.clips.begin(), pool.clips.end(), [](const Clip& clip) { return clip.name == "standing"; });
+    EXPECT_EQ(is_made, times != 1) << "the other does not end as it begins";
+    double fastest = 0;
+    for (const Fragment& f : pool.fragments) {
+      if (pool.clips[f.clip].name == "idle") fastest = std::max(fastest, space.distance(f.evident, {}));
+    }
+    EXPECT_GT(fastest, kPerformed);
   }
 }
 

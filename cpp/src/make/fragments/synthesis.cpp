@@ -22,6 +22,7 @@
 #include "fragments/standing.hpp"
 #include "fragments/successors.hpp"
 #include "motion/contacts.hpp"
+#include "motion/cycle.hpp"
 #include "motion/foot_paths.hpp"
 #include "motion/legs.hpp"
 
@@ -86,17 +87,28 @@ void add_living_stand(FragmentPool& pool, const ControlSpace& space, double usua
   pool.clips[into] = make_clip(pool.skeleton, std::move(clip));
 }
 
-// How long a take stands at most, s, where these fragments stand.
-double longest_stand(const FragmentPool& pool, const std::vector<int>& next, const std::vector<int>& standing) {
-  double longest = 0;
-  for (const int first : standing) {
+bool stands(const Fragment& f, const ControlSpace& space) { return !space.asks_to_go(f.evident) && !f.evident.jumps(); }
+
+// Whether the takes show long enough how the body stands: in fragments that follow each other, hardly move, and stay
+// where they are together, though it shifts its weight in each; or in a whole clip that ends as it begins.
+bool takes_stand(const FragmentPool& pool, const std::vector<int>& next, const ControlSpace& space) {
+  const Kinematics kinematics(pool.skeleton);
+  for (std::size_t first = 0; first < next.size(); ++first) {
+    const int begin = pool.fragments[first].begin;
+    Control gone{0, 0, 0, 0};
     double seconds = 0;
-    for (int f = first; std::binary_search(standing.begin(), standing.end(), f); f = next[f]) {
-      seconds += pool.seconds(pool.fragments[f]);
+    for (int f = static_cast<int>(first); f >= 0 && stands(pool.fragments[f], space); f = next[f]) {
+      const Fragment& fragment = pool.fragments[f];
+      const double more = pool.seconds(fragment);
+      gone = mix(gone, fragment.evident, more / (seconds + more));
+      seconds += more;
+      if (space.distance(gone, {}) > kPerformed) continue;
+      const Clip& clip = pool.clips[fragment.clip];
+      const bool is_whole = begin == 0 && fragment.end == clip.frames - 1;
+      if (seconds >= kStandsLong || (is_whole && cycle_of(kinematics, clip) > 0)) return true;
     }
-    longest = std::max(longest, seconds);
   }
-  return longest;
+  return false;
 }
 
 // Fills the holes of a pool's control space.
@@ -416,20 +428,22 @@ class Synthesizer {
 void synthesize(FragmentPool& pool, const ControlSpace& space, double usual, double longest, int threads,
                 const Trajectories& known) {
   require_range("the longest fragment (s)", longest, 0.1, 10);
-  std::vector<int> standing;
-  for (std::size_t f = 0; f < pool.fragments.size(); ++f) {
-    if (space.distance(pool.fragments[f].evident, {}) <= kPerformed) standing.push_back(static_cast<int>(f));
-  }
   const std::size_t fragments = pool.fragments.size(), clips = pool.clips.size();
   const bool mirrored = std::any_of(pool.fragments.begin(), pool.fragments.end(),
                                     [](const Fragment& f) { return f.origin == Origin::mirrored; });
-  if (standing.empty()) add_standing(pool);
   std::vector<int> next = successors(pool.fragments);
-  const bool stands_long = longest_stand(pool, next, standing) >= kStandsLong;
+  const bool stands_long = takes_stand(pool, next, space);
+  const bool any_stands =
+      stands_long || std::any_of(pool.fragments.begin(), pool.fragments.end(),
+                                 [&](const Fragment& f) { return space.distance(f.evident, {}) <= kPerformed; });
+  if (!any_stands) {
+    add_standing(pool);
+    next = successors(pool.fragments);
+  }
   Synthesizer(pool, std::move(next), mirrored ? clips / 2 : clips, space, usual, longest, threads, known).fill();
   if (stands_long) return;
-  add_living_stand(pool, space, usual, static_cast<int>(standing.empty() ? clips : pool.clips.size()));
-  if (standing.empty()) pool.fragments.erase(pool.fragments.begin() + static_cast<std::ptrdiff_t>(fragments));
+  add_living_stand(pool, space, usual, static_cast<int>(any_stands ? pool.clips.size() : clips));
+  if (!any_stands) pool.fragments.erase(pool.fragments.begin() + static_cast<std::ptrdiff_t>(fragments));
 }
 
 }  // namespace fragmotion

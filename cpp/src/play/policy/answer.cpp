@@ -2,6 +2,7 @@
 #include "policy/answer.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace fragmotion {
@@ -10,6 +11,11 @@ namespace {
 bool asks_for_motion(const Control& control) { return control.speed() > 0 && !control.jumps(); }
 bool asks_to_stand(const Control& control) { return control.speed() == 0 && control.turn == 0 && !control.jumps(); }
 
+// Who stands shifts his weight, but does not turn: nearer to no turn than to one.
+bool stands(const ControlSpace& space, const Control& evident) {
+  return !space.asks_to_go(evident) && std::abs(evident.turn) < 0.5;
+}
+
 // The classes that may play and answer a control, or stand where it asks to.
 std::vector<int> answering_classes(const Quality& quality, const ControlSpace& space, int control,
                                    const std::vector<Control>& evident) {
@@ -17,7 +23,7 @@ std::vector<int> answering_classes(const Quality& quality, const ControlSpace& s
   std::vector<int> answering;
   for (int k = 0; k < quality.classes; ++k) {
     const bool plays = quality.match[static_cast<std::size_t>(k) * quality.controls + control] > 0;
-    if (plays && answers(evident[k], wanted) && (wanted.speed() > 0 || !space.asks_to_go(evident[k])))
+    if (plays && answers(evident[k], wanted) && (wanted.speed() > 0 || stands(space, evident[k])))
       answering.push_back(k);
   }
   return answering;
@@ -72,16 +78,17 @@ class HeldControl {
 
   bool is_answered(const std::vector<int>& cycle) {
     Vector2 sum = Vector2::Zero();
-    double played = 0, speeds = 0;
+    double played = 0, speeds = 0, turns = 0;
     const auto play = [&](int k) {
       sum += Vector2(evident_[k].x, evident_[k].y), speeds += evident_[k].speed(), ++played;
+      turns += std::abs(evident_[k].turn);
     };
     for (const int k : cycle) {
       play(k);
       if (bridge(k, next(k)) >= 0) play(bridge(k, next(k)));
     }
     const Control& wanted = space_.point(control_);
-    if (wanted.speed() == 0) return !space_.asks_to_go({speeds / played, 0, 0, 0});
+    if (wanted.speed() == 0) return stands(space_, {speeds / played, 0, turns / played, 0});
     return goes_along(sum.x() / played, sum.y() / played, wanted);
   }
 
