@@ -3,21 +3,28 @@
 
 from __future__ import annotations
 
+import re
+from collections import Counter
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from ..compat.core import core
+from ..mocap.left_out import source_of
+from ..recordings.recordings import TRACE_RATE
 from .control_layout import ControlLayout, layout_of
 
 if TYPE_CHECKING:
-    from fragmotion_core import ControlSpace
+    from fragmotion_core import Character, ControlSpace
     from numpy.typing import NDArray
 
 NOTHING = "Hardly moves: none of its takes goes anywhere, as far as can be told"
 _VERBS = {"stroll": "strolls", "walk": "walks", "jog": "jogs", "run": "runs", "sprint": "sprints"}
 _MOST = 3 / 4  # of so many: as good as all
+_NAMED = re.compile(r"(?<![a-z])idle(?![a-z])", re.IGNORECASE)
+_MADE = "standing"  # what the core names a stand that no take shows
+_STANDS = 20, 10.0  # s that it is looked at, frames a second
 
 
 def say_abilities(done: Sequence[bool], layout: ControlLayout) -> str:
@@ -49,6 +56,30 @@ def say_undone(done: Sequence[bool], space: ControlSpace) -> str:
         f"Cannot {', '.join(undone)} as it is asked to: no take shows how, and none could be made that does. "
         "What comes nearest is done instead"
     )
+
+
+def say_stand(character: Character) -> str:
+    """What it stands as, where that is not what its takes name an idle; empty where it is, and where they name none."""
+    takes = list(dict.fromkeys(map(_take_of, character.clip_names)))
+    named = [take for take in takes if _NAMED.search(take)]
+    seconds, rate = _STANDS
+    shown = core.Player(character, 1).run(np.zeros((seconds * TRACE_RATE, 4)), rate).fragments
+    counts = Counter(_take_of(character.clip_names[clip]) for clip in character.fragment_clips[shown])
+    others = [take for take, _ in counts.most_common() if take not in named]
+    if not named or 2 * sum(counts[take] for take in others) <= len(shown):
+        return ""
+    what = f"as in '{others[0]}'" if others[0] != _MADE else "in a pose that is made"
+    return (
+        f"Who is not asked to go stands {what}, not as in '{named[0]}': untick what is neither a gait nor a stand, and "
+        "Build again; it may be a move"
+    )
+
+
+def _take_of(clip: str) -> str:
+    """The take that a clip of a character is, or is made of."""
+    while (name := clip.removesuffix(" transformed").removesuffix(" mirrored")) != clip:
+        clip = name
+    return source_of(clip)[0]
 
 
 def _phrases(ways: dict[str, str]) -> list[str]:

@@ -325,3 +325,16 @@ def test_a_build_in_the_background_ends_with_the_same_character(addon: ModuleTyp
     built = job.result()
     assert not job.running and job.fraction >= 0.95
     np.testing.assert_array_equal(built.character.table, addon.character.building.load(obj).table)
+
+
+def test_build_says_that_a_stand_is_none_of_an_idle(
+    addon: ModuleType, obj: bpy.types.Object, capfd: pytest.CaptureFixture[str]
+) -> None:
+    """Here the Action of that name walks."""
+    for action in bpy.data.actions:
+        action.fragmotion.use = action.name in ("stand", "walk forward")
+    walk, stand = bpy.data.actions["walk forward"], bpy.data.actions["stand"]
+    for names, said in ((("Hero|Idle", "nod"), True), (("midlength", "nod"), False), (("walk", "Idle_01"), False)):
+        walk.name, stand.name = names
+        assert bpy.ops.fragmotion.build("EXEC_DEFAULT") == {"FINISHED"}
+        assert ("stands as in 'nod', not as in 'Hero|Idle'" in capfd.readouterr().out) == said
