@@ -256,6 +256,9 @@ void bind_clip(py::module_& m) {
       .def("may_go",
            on_skeleton([](const Clip& clip, const Skeleton& skeleton) { return may_go(Kinematics(skeleton), clip); }),
            py::arg("skeleton"))
+      .def("bobs",
+           on_skeleton([](const Clip& clip, const Skeleton& skeleton) { return bobs(Kinematics(skeleton), clip); }),
+           py::arg("skeleton"))
       .def("discontinuities",
            on_skeleton([](const Clip& clip, const Skeleton& skeleton) { return discontinuities(skeleton, clip); }),
            py::arg("skeleton"))

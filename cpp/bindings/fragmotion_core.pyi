@@ -305,6 +305,8 @@ class Clip:
     def may_go(self, skeleton: Skeleton) -> bool:
         """Whether a clip whose feet tell no way may be a gait all the same: a cycle on the spot in which they, or where
         it has none the bone that does most, go about as fast as a body does that moves."""
+    def bobs(self, skeleton: Skeleton) -> float:
+        """How many times as far as its legs stretch and bend the hips go up and down; 0 where that is not told."""
     def discontinuities(self, skeleton: Skeleton) -> list[int]:
         """The frames that no body gets to from the frame before, in order: as after a calibration pose, or where one
         motion follows another in a file; none in a closed cycle."""

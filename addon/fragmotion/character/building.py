@@ -20,7 +20,7 @@ from ..mocap.curve_points import read_once
 from ..mocap.doctor import say_bobbing, say_lying, tell_ground, tell_size
 from ..mocap.hands import hand_pose, with_hands
 from ..mocap.on_the_spot import lead_by_feet, say_untold
-from ..mocap.other_bodies import keep_legs
+from ..mocap.other_bodies import keep_legs, tell_smaller
 from ..mocap.sampling import rig_as_posed, sample_parts
 from ..mocap.styles import grouped, style_of
 from ..recordings.traces import make_traces
@@ -173,7 +173,7 @@ def _sample_all(
     """The takes as clips with the style of each, and what to warn of. Takes of a single pose are left out where there
     are others."""
     clips: list[tuple[str, Clip]] = []
-    poses, warnings, hovering = [], [], []
+    poses, warnings, hovering, smaller = [], [], [], []
     hands = hand_pose(context, obj, rig)
     for action in takes:
         try:
@@ -182,6 +182,8 @@ def _sample_all(
                 parts = lead_by_feet(context.scene, obj, action, sampled, rig.skeleton)
                 ground = tell_ground(action, parts, rig.skeleton)
                 hovering.extend([f"'{action.name}': {ground}"] if ground else [])
+                small = tell_smaller(action, parts, rig.skeleton)
+                smaller.extend([f"'{action.name}': {small}"] if small else [])
                 clips.extend((style_of(action), with_hands(clip, rig, hands)) for clip in parts)
                 digest_of(action)  # kept for sources_of
         except SinglePose:
@@ -193,6 +195,8 @@ def _sample_all(
     if hovering:
         more = f" ({len(hovering) - 1} more do, too)" if len(hovering) > 1 else ""
         warnings.append(f"In {hovering[0]}, as Mend does in Doctor, or it is learned so{more}")
+    if smaller:
+        warnings.append(smaller[0] + (f" ({len(smaller) - 1} more like it)" if len(smaller) > 1 else ""))
     warnings.extend(say_untold(takes))
     others = external_motion(obj)
     if others:

@@ -12,12 +12,13 @@ from .actions import played
 from .doctor import tell_anew
 
 if TYPE_CHECKING:
-    from fragmotion_core import Rig
+    from fragmotion_core import Clip, Rig, Skeleton
 
 _LEG = "fragmotion_leg"
 """Custom property of an Action: how long the leg of the armature is that it was made for, in that one's own units."""
 
 _ALIKE = 0.01  # legs that differ by less are as long: the core's law for an object's scale
+_SMALL = 1 / 3  # times: of 115 Actions of 40 files that are as they should be the least is 0.45
 _SIDES = ("left", "right")
 
 
@@ -43,6 +44,19 @@ def keep_legs(obj: bpy.types.Object, takes: Sequence[bpy.types.Action], rig: Rig
         tell_anew(action, "other_body", "info", f"Made {text}" if times != 1 else "")
         told += [f"'{action.name}' was made {text}"] if times != 1 else []
     return [told[0] + (f" (and {len(told) - 1} more like it)" if len(told) > 1 else "")] if told else []
+
+
+def tell_smaller(action: bpy.types.Action, clips: Sequence[Clip], skeleton: Skeleton) -> str:
+    """That an Action may be of a smaller body of which nothing is known, and the Doctor tells it: the hips go up and
+    down far less than the legs have them. Empty where they do not."""
+    times = max((clip.bobs(skeleton) for clip in clips), default=0)
+    text = (
+        f"The hips go {times:.2g} times as far up and down as the legs stretch and bend, as in an Action of a smaller "
+        "body: if it is, bring that body's armature, which plays it, into the file again until Build has seen it"
+    )
+    told = text if 0 < times < _SMALL else ""
+    tell_anew(action, "smaller_body", "warning", told)
+    return told
 
 
 def keep_own_leg(obj: bpy.types.Object, action: bpy.types.Action, rig: Rig) -> None:

@@ -108,3 +108,19 @@ def test_what_is_mended_is_not_made_longer_again(addon: ModuleType, paths: dict[
     (row,) = (i for i, each in enumerate(action.fragmotion.findings) if each.code == "in_place")
     assert bpy.ops.fragmotion.mend_finding(index=row) == {"FINISHED"}
     assert root_path(addon, obj, action.name)[:, 2] == pytest.approx(on_the_spot[:, 2], abs=1e-3)
+
+
+def test_build_says_so_where_the_smaller_body_is_gone_before_it(
+    addon: ModuleType, paths: dict[str, np.ndarray], capfd: pytest.CaptureFixture[str]
+) -> None:
+    obj = bpy.context.view_layer.objects.active
+    for other in [each for each in bpy.data.objects if each.type == "ARMATURE" and each != obj]:
+        bpy.data.objects.remove(other)
+    actions = [bpy.data.actions[name] for name in NAMES]
+    for times in (1, 4):
+        for action in actions:
+            lessen(addon, obj, action, times)
+        assert bpy.ops.fragmotion.build("EXEC_DEFAULT") == {"FINISHED"}
+        said = [a.name for a in actions if any(row.code == "smaller_body" for row in a.fragmotion.findings)]
+        assert ("walk forward" in said) == (times == 1), "of a flight, as of the run, the legs tell nothing"
+        assert ("as in an Action of a smaller body" in capfd.readouterr().out) == bool(said) == (times == 1)

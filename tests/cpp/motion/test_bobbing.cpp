@@ -29,6 +29,11 @@ TEST(Bobbing, IsToldByLegs) {
   for (const double times : {10.0, 100.0}) EXPECT_NEAR(bobs_too_far(kKinematics, {bending(times)}), times, times / 20);
 }
 
+TEST(Bobbing, IsAsManyTimesAsFarAsLegsGo) {
+  for (const double times : {0.25, 1.0, 4.0}) EXPECT_NEAR(bobs(kKinematics, bending(times)), times, times / 20);
+  EXPECT_EQ(bobs(kKinematics, bending(1, 1)), 0);
+}
+
 TEST(Bobbing, IsRightWhereAnyClipHasItSo) {
   EXPECT_EQ(bobs_too_far(kKinematics, {bending(100), bending(1), bending(100)}), 1);
   EXPECT_EQ(bobs_too_far(kKinematics, {}), 1);

@@ -35,13 +35,18 @@ Bobbing bobbing_of(const Kinematics& kinematics, const Clip& clip) {
 
 }  // namespace
 
+double bobs(const Kinematics& kinematics, const Clip& clip) {
+  if (legs_with_feet(kinematics.skeleton().roles).empty()) return 0;
+  const auto [hips, legs] = bobbing_of(kinematics, clip);
+  const double both = (hips * legs).sum(), of_hips = hips.square().sum();
+  return both > 0 && 2 * both * both > of_hips * legs.square().sum() ? of_hips / both : 0;
+}
+
 double bobs_too_far(const Kinematics& kinematics, const std::vector<Clip>& clips) {
-  if (legs_with_feet(kinematics.skeleton().roles).empty()) return 1;
   std::vector<double> told;
   for (const Clip& clip : clips) {
-    const auto [hips, legs] = bobbing_of(kinematics, clip);
-    const double both = (hips * legs).sum(), of_hips = hips.square().sum();
-    if (both > 0 && 2 * both * both > of_hips * legs.square().sum()) told.push_back(of_hips / both);
+    const double times = bobs(kinematics, clip);
+    if (times > 0) told.push_back(times);
   }
   if (told.empty() || *std::min_element(told.begin(), told.end()) < kTooFar) return 1;
   return median(told);

@@ -8,6 +8,10 @@
 
 namespace fragmotion {
 
+/// How many times as far as its legs stretch and bend the hips go up and down in a clip; 0 where the legs do not
+/// explain most of that.
+double bobs(const Kinematics& kinematics, const Clip& clip);
+
 /// How many times too far up and down the hips go in these clips: what stands on the ground goes as its legs stretch
 /// and bend. 1 where that is not told, by no clip whose legs explain most of what the hips do, or by a clip in which
 /// they go less than five times too far: flights go farther than legs, too.
