@@ -30,10 +30,10 @@ std::vector<int> answered_controls(const Quality& quality, const ControlSpace& s
 
 /// Makes a table answer motion with motion, and the control that asks to stand with a stand. Going on joins perfectly,
 /// so that Eq. 2 may prefer it to what is asked for, for ever. Where such a control is held and leads into a cycle of
-/// classes that does not answer() it on average, or that goes or turns where it asks to stand, each class of the cycle is
-/// followed by the one of the greatest quality that leads to an answer instead; and a control of motion that no class
-/// answers is performed as answered_controls() says. `bridges`: stand_bridges(), which play in between. A table that is
-/// mended stays as it is when it is mended again.
+/// classes that does not answer() it on average, or that goes or turns where it asks to stand, each class of the cycle
+/// is followed by the one of the greatest quality that leads to an answer instead; and a control of motion that no
+/// class answers is performed as answered_controls() says. `bridges`: stand_bridges(), which play in between. A table
+/// that is mended stays as it is when it is mended again.
 void answer_motion(Policy& policy, const Quality& quality, const ControlSpace& space,
                    const std::vector<Control>& evident, const std::vector<int>& bridges);
 
