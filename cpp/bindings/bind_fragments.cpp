@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "arrays.hpp"
 #include "character/character.hpp"
+#include "fragments/acts.hpp"
 #include "fragments/distance.hpp"
 
 namespace fragmotion::bindings {
@@ -21,6 +22,8 @@ py::array_t<float> to_points(const std::vector<float>& rows, int count, int stri
 }  // namespace
 
 void bind_fragments(py::module_& m) {
+  m.def(
+      "names_idle", [](const std::string& clip) { return words_beside_idle(clip) >= 0; }, py::arg("clip"));
   m.def(
       "trajectories",
       [](const Character& c, int poses) {

@@ -1078,6 +1078,10 @@ def abilities(character: Character, threads: int = 0) -> list[bool]:
     """Which of its controls the character does: those without a jump are asked for over six seconds, and done where
     velocity and turn rate are within a fifth and 30 %; of those with a jump, which a fragment performs."""
 
+def names_idle(clip: str) -> bool:
+    """Whether a clip's name holds the word "idle", in any case. Of clips that do nothing but stand, those that are named
+    so by the fewest words alone have fragments in a character, where there are any."""
+
 def undone_controls(space: ControlSpace, done: Sequence[bool]) -> list[str]:
     """What can be asked for by the stick alone, as "run back", and is not done, as `abilities` tells; ValueError unless
     `done` has a value of each control."""

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-import re
 from collections import Counter
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
@@ -22,8 +21,8 @@ if TYPE_CHECKING:
 NOTHING = "Hardly moves: none of its takes goes anywhere, as far as can be told"
 _VERBS = {"stroll": "strolls", "walk": "walks", "jog": "jogs", "run": "runs", "sprint": "sprints"}
 _MOST = 3 / 4  # of so many: as good as all
-_NAMED = re.compile(r"(?<![a-z])idle(?![a-z])", re.IGNORECASE)
 _MADE = "standing"  # what the core names a stand that no take shows
+_SAID = 4  # takes, by their names
 _STANDS = 20, 10.0  # s that it is looked at, frames a second
 
 
@@ -60,8 +59,8 @@ def say_undone(done: Sequence[bool], space: ControlSpace) -> str:
 
 def say_stand(character: Character) -> str:
     """What it stands as, where that is not what its takes name an idle; empty where it is, and where they name none."""
-    takes = list(dict.fromkeys(map(_take_of, character.clip_names)))
-    named = [take for take in takes if _NAMED.search(take)]
+    takes = (_take_of(character.clip_names[clip]) for clip in np.unique(character.fragment_clips))
+    named = list(dict.fromkeys(filter(core.names_idle, takes)))
     seconds, rate = _STANDS
     shown = core.Player(character, 1).run(np.zeros((seconds * TRACE_RATE, 4)), rate).fragments
     counts = Counter(_take_of(character.clip_names[clip]) for clip in character.fragment_clips[shown])
@@ -72,6 +71,23 @@ def say_stand(character: Character) -> str:
     return (
         f"Who is not asked to go stands {what}, not as in '{named[0]}': untick what is neither a gait nor a stand, and "
         "Build again; it may be a move"
+    )
+
+
+def say_acts(character: Character) -> str:
+    """Which takes are left out, as they do nothing but stand and another is named an idle; empty where none is."""
+    takes, shown = map(_take_of, character.clip_names), np.bincount(character.fragment_clips)
+    learned: dict[str, bool] = {}
+    for clip, take in enumerate(takes):
+        learned[take] = learned.get(take, False) or (clip < len(shown) and shown[clip] > 0)
+    idle = next((take for take, is_learned in learned.items() if is_learned and core.names_idle(take)), "")
+    acts = [f"'{take}'" for take, is_learned in learned.items() if not is_learned]
+    if not idle or not acts:
+        return ""
+    more = f" and {len(acts) - _SAID} more" if len(acts) > _SAID else ""
+    return (
+        f"'{idle}' is how it stands; what else does nothing but stand is left out: {', '.join(acts[:_SAID])}{more}. "
+        "It may be a move"
     )
 
 

@@ -338,3 +338,20 @@ def test_build_says_that_a_stand_is_none_of_an_idle(
         walk.name, stand.name = names
         assert bpy.ops.fragmotion.build("EXEC_DEFAULT") == {"FINISHED"}
         assert ("stands as in 'nod', not as in 'Hero|Idle'" in capfd.readouterr().out) == said
+
+
+def test_build_leaves_out_what_only_stands_where_an_idle_does_and_says_so(
+    addon: ModuleType, obj: bpy.types.Object, capfd: pytest.CaptureFixture[str]
+) -> None:
+    stand = bpy.data.actions["stand"]
+    act = stand.copy()
+    for action in bpy.data.actions:
+        action.fragmotion.use = action in (stand, act, bpy.data.actions["walk forward"])
+    for names, said in ((("Hero|Idle", "Hero|Wave"), True), (("Hero|Rest", "Hero|Wave"), False)):
+        stand.name, act.name = names
+        assert bpy.ops.fragmotion.build("EXEC_DEFAULT") == {"FINISHED"}
+        text = "'Hero|Idle' is how it stands; what else does nothing but stand is left out: 'Hero|Wave'"
+        assert (text in capfd.readouterr().out) == said
+        character = addon.character.building.load(obj)
+        learned = {character.clip_names[clip] for clip in character.fragment_clips}
+        assert ("Hero|Wave" in learned) != said

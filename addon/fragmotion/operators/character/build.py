@@ -8,7 +8,7 @@ from typing import Any, ClassVar
 import bpy
 
 from ...character import building
-from ...character.abilities import NOTHING, say_stand, say_undone
+from ...character.abilities import NOTHING, say_acts, say_stand, say_undone
 from ...character.control_layout import say_lacking
 from ...character.coverage import lacking
 from ...jobs import Job
@@ -74,7 +74,7 @@ class FRAGMOTION_OT_build(BuildFields, Building, bpy.types.Operator):
         remarks = (
             *filter(NOTHING.__eq__, (figures.abilities,)),
             *self._warnings,
-            *filter(None, (spare, undone, say_stand(built.character))),
+            *filter(None, (spare, undone, say_acts(built.character), say_stand(built.character))),
             *lacking(building.coverage_by_style(built)),
         )
         for warning in remarks:

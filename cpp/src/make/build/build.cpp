@@ -14,6 +14,7 @@
 #include "build/stages.hpp"
 #include "classes/clustering.hpp"
 #include "fragments/able_trace.hpp"
+#include "fragments/acts.hpp"
 #include "fragments/coverage.hpp"
 #include "fragments/entry_poses.hpp"
 #include "fragments/evident.hpp"
@@ -280,6 +281,7 @@ Material prepare(const Skeleton& skeleton, const std::vector<Clip>& clips, const
   double usual = 0;
   c.space = perform(pool, kinematics, options, usual);
   drop_t_poses(pool, c.space);
+  drop_acts(pool, c.space);
   c.report["captured"] = static_cast<double>(pool.fragments.size());
   report_held(c, pool);
   c.report["cut_seconds"] = stage.lap();
