@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstddef>
 #include <utility>
+#include <vector>
 
 #include "motion/bladed_stance.hpp"
 #include "motion/in_place.hpp"
@@ -124,12 +127,39 @@ TEST(ToldTurns, AreThoseOfATakeWhoseWayIsKeptInItsFile) {
   for (std::size_t c = 0; c < turns.size(); ++c) EXPECT_NEAR(again[c], turns[c], 0.01) << c;
 }
 
+void turn_hips(Clip& clip, int f, double turn) {
+  const Skeleton skeleton = humanoid();
+  double* hips = &clip.rotations[4 * (std::size_t(f) * skeleton.size() + skeleton.roles.hips)];
+  store_quaternion(CharacterFrame{{0, 0}, turn}.rotation() * load_quaternion(hips), hips);
+}
+
 TEST(ToldTurns, AreNoneOfTakesThatTurn) {
   std::vector<Clip> clips = on_the_spot(0);
   for (Clip& clip : clips) {
-    for (int f = 0; f < clip.frames; ++f) clip.headings[f] += f / clip.rate;
+    for (int f = 0; f < clip.frames; ++f) {
+      turn_hips(clip, f, f / clip.rate);
+      clip.headings[f] += f / clip.rate;
+    }
   }
   EXPECT_EQ(told(clips), std::vector<double>(4, 0));
+}
+
+TEST(ToldTurns, AreThoseOfShortCyclesWhoseHipsSwayTogether) {
+  const Skeleton skeleton = humanoid();
+  const std::vector<double> hips{0.3, 1.7, -0.9, 0.3};
+  std::vector<Clip> clips = on_the_spot(0);
+  for (Clip& clip : clips) {
+    clip.frames = 31;
+    clip.root_positions.resize(std::size_t{3} * clip.frames);
+    clip.rotations.resize(4 * skeleton.size() * clip.frames);
+    for (int f = 0; f < clip.frames; ++f) turn_hips(clip, f, 0.6 * std::sin(2 * kPi * f / clip.rate));
+    clip.headings.clear();
+    clip = make_clip(skeleton, std::move(clip));
+    clip.led = true;
+    ASSERT_GT(std::abs(clip.headings.back() - clip.headings.front()), kPi / 12) << "as smoothed, it turns";
+  }
+  const std::vector<double> turns = told(clips);
+  for (std::size_t c = 0; c < hips.size(); ++c) EXPECT_NEAR(turns[c], -hips[c], 0.05) << c;
 }
 
 TEST(ToldTurns, LetBuildLearnSidestepsAsThese) {

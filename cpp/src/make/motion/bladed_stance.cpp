@@ -138,7 +138,7 @@ std::vector<double> take_told_turns(const Kinematics& kinematics, const std::vec
   std::vector<double> result(takes.size(), 0);
   std::vector<OnTheSpot> told;
   for (std::size_t c = 0; c < takes.size(); ++c) {
-    if (!takes[c].led || turns(takes[c])) continue;
+    if (!takes[c].led || turns(kinematics, takes[c])) continue;
     told.push_back(
         {c, way_from_rest(kinematics, takes[c]), wrapped(mean_facing(takes[c]) - kinematics.rest_frame().heading)});
   }

@@ -28,6 +28,13 @@ Vector2 middle(const Clip& clip) {
   return sum / clip.frames;
 }
 
+double hips_heading(const Kinematics& kinematics, const Clip& clip, int f) {
+  const std::size_t hips = kinematics.bones() * f + kinematics.skeleton().roles.hips;
+  return kinematics
+      .frame(load_vector(&clip.root_positions[std::size_t{3} * f]), load_quaternion(&clip.rotations[4 * hips]))
+      .heading;
+}
+
 bool stays(const Kinematics& kinematics, const Clip& clip) {
   const double scale = standard_scale(kinematics.skeleton());
   for (int f = 1; f < clip.frames; ++f) {
@@ -67,11 +74,11 @@ std::optional<FeetWay> way_of(const Treading& treading, const std::vector<SolePa
 }
 
 // As a pair of feet tells it.
-std::optional<FeetWay> way_of(const std::vector<SolePath>& soles, const Clip& clip, double scale) {
+std::optional<FeetWay> way_of(const std::vector<SolePath>& soles, const Clip& clip, double scale, bool turning) {
   const Treading treading(soles, clip, scale);
   if (!treading.is_long_enough()) return std::nullopt;
   FeetWay way;
-  if (!turns(clip)) way.turn = treading.turn();
+  if (!turning) way.turn = treading.turn();
   if (std::abs(way.turn) < kTurns) way.turn = 0;
   const Vector2 center = middle(clip);
   const Velocities stands = treading.velocities(way.turn, center), strides = treading.striding(way.turn, center);
@@ -90,9 +97,10 @@ FeetWay halfway(FeetWay a, const FeetWay& b) {
 std::optional<FeetWay> way_of(const Kinematics& kinematics, const Clip& clip) {
   const double scale = standard_scale(kinematics.skeleton());
   const std::vector<SolePath> soles = find_soles(kinematics, clip);
-  const std::optional<FeetWay> way = way_of({soles.begin(), soles.begin() + 2}, clip, scale);
+  const bool turning = turns(kinematics, clip);
+  const std::optional<FeetWay> way = way_of({soles.begin(), soles.begin() + 2}, clip, scale, turning);
   if (!way || soles.size() == 2) return way;
-  const std::optional<FeetWay> fore = way_of({soles.begin() + 2, soles.end()}, clip, scale);
+  const std::optional<FeetWay> fore = way_of({soles.begin() + 2, soles.end()}, clip, scale, turning);
   return fore ? std::optional(halfway(*way, *fore)) : std::nullopt;
 }
 
@@ -117,8 +125,11 @@ std::vector<double> bone_speeds(const Kinematics& kinematics, const Clip& clip) 
 
 }  // namespace
 
-bool turns(const Clip& clip) {
-  return std::abs(clip.headings.back() - clip.headings.front()) * clip.rate > kTurns * (clip.frames - 1);
+bool turns(const Kinematics& kinematics, const Clip& clip) {
+  double turned = clip.headings.back() - clip.headings.front();
+  if (cycle_of(kinematics, clip) > 0)
+    turned += wrapped(hips_heading(kinematics, clip, clip.frames - 1) - hips_heading(kinematics, clip, 0) - turned);
+  return std::abs(turned) * clip.rate > kTurns * (clip.frames - 1);
 }
 
 double mean_facing(const Clip& clip) {

@@ -16,8 +16,9 @@ struct FeetWay {
   bool by_legs = false;             ///< How far legs with feet open tells it, for none of what stands does.
 };
 
-/// Whether the body is seen to turn: its feet may then turn with it as they stand.
-bool turns(const Clip& clip);
+/// Whether the body is seen to turn: its feet may then turn with it as they stand. In a cycle the hips' own
+/// headings at its ends tell it, which are at the same place of their sway; smoothed ones are not, where it is short.
+bool turns(const Kinematics& kinematics, const Clip& clip);
 
 /// Where the clip faces on the mean, rad.
 double mean_facing(const Clip& clip);
