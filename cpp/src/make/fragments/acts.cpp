@@ -36,14 +36,13 @@ void drop_acts(FragmentPool& pool, const ControlSpace& space, Origin origin) {
 }  // namespace
 
 int words_beside_idle(const std::string& name) {
-  int fewest = -1;
   for (std::size_t begin = 0; begin <= name.size();) {
     const std::size_t end = std::min(name.find_first_of(":|", begin), name.size());
     const BoneName part = read_names({name.substr(begin, end - begin)})[0];
-    if (has_any_word(part, {"idle"})) fewest = static_cast<int>(part.words.size()) - 1;
+    if (has_any_word(part, {"idle"})) return static_cast<int>(part.words.size()) - 1;
     begin = end + 1;
   }
-  return fewest;
+  return -1;
 }
 
 void drop_acts(FragmentPool& pool, const ControlSpace& space) {
