@@ -2,25 +2,20 @@
 #include "fragments/acts.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <vector>
 
+#include "policy/answer.hpp"
 #include "skeleton/bone_names.hpp"
 
 namespace fragmotion {
 namespace {
 
-// Who stands shifts his weight, but does not turn: nearer to no turn than to one.
-bool stands(const Control& evident, const ControlSpace& space) {
-  return !space.asks_to_go(evident) && std::abs(evident.turn) < 0.5 && !evident.jumps();
-}
-
 // Leaves out the acts of one origin: a mirror image has a word more in its name.
 void drop_acts(FragmentPool& pool, const ControlSpace& space, Origin origin) {
   std::vector<char> only_stands(pool.clips.size(), 0);
   for (const Fragment& f : pool.fragments) only_stands[f.clip] = f.origin == origin;
-  for (const Fragment& f : pool.fragments) only_stands[f.clip] &= stands(f.evident, space);
+  for (const Fragment& f : pool.fragments) only_stands[f.clip] &= stands(space, f.evident) && !f.evident.jumps();
   std::vector<int> words(pool.clips.size(), -1);
   int fewest = std::numeric_limits<int>::max();
   for (std::size_t c = 0; c < words.size(); ++c) {

@@ -2,7 +2,6 @@
 #include "policy/answer.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace fragmotion {
@@ -10,11 +9,6 @@ namespace {
 
 bool asks_for_motion(const Control& control) { return control.speed() > 0 && !control.jumps(); }
 bool asks_to_stand(const Control& control) { return control.speed() == 0 && control.turn == 0 && !control.jumps(); }
-
-// Who stands shifts his weight, but does not turn: nearer to no turn than to one.
-bool stands(const ControlSpace& space, const Control& evident) {
-  return !space.asks_to_go(evident) && std::abs(evident.turn) < 0.5;
-}
 
 // The classes that may play and answer a control, or stand where it asks to.
 std::vector<int> answering_classes(const Quality& quality, const ControlSpace& space, int control,

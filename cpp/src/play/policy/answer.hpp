@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
 #include <vector>
 
 #include "policy/policy.hpp"
@@ -20,6 +21,11 @@ inline bool goes_along(double x, double y, const Control& wanted) {
 /// and along it at no less than half its speed. What all of some do, their mean does, too.
 inline bool answers(const Control& evident, const Control& wanted) {
   return matches_jump(evident, wanted) && goes_along(evident.x, evident.y, wanted);
+}
+
+/// Whether what is evident is a stand: who stands shifts his weight, but does not turn, nearer to no turn than to one.
+inline bool stands(const ControlSpace& space, const Control& evident) {
+  return !space.asks_to_go(evident) && std::abs(evident.turn) < 0.5;
 }
 
 /// [controls]: the control that is performed in place of each. It is itself, but where it asks for motion that no class
