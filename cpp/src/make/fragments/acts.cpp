@@ -5,7 +5,6 @@
 #include <limits>
 #include <vector>
 
-#include "policy/answer.hpp"
 #include "skeleton/bone_names.hpp"
 
 namespace fragmotion {
@@ -15,7 +14,7 @@ namespace {
 void drop_acts(FragmentPool& pool, const ControlSpace& space, Origin origin) {
   std::vector<char> only_stands(pool.clips.size(), 0);
   for (const Fragment& f : pool.fragments) only_stands[f.clip] = f.origin == origin;
-  for (const Fragment& f : pool.fragments) only_stands[f.clip] &= stands(space, f.evident) && !f.evident.jumps();
+  for (const Fragment& f : pool.fragments) only_stands[f.clip] &= space.stands(f.evident) && !f.evident.jumps();
   std::vector<int> words(pool.clips.size(), -1);
   int fewest = std::numeric_limits<int>::max();
   for (std::size_t c = 0; c < words.size(); ++c) {

@@ -17,7 +17,7 @@ std::vector<int> answering_classes(const Quality& quality, const ControlSpace& s
   std::vector<int> answering;
   for (int k = 0; k < quality.classes; ++k) {
     const bool plays = quality.match[static_cast<std::size_t>(k) * quality.controls + control] > 0;
-    if (plays && answers(evident[k], wanted) && (wanted.speed() > 0 || stands(space, evident[k])))
+    if (plays && answers(evident[k], wanted) && (wanted.speed() > 0 || space.stands(evident[k])))
       answering.push_back(k);
   }
   return answering;
@@ -82,7 +82,7 @@ class HeldControl {
       if (bridge(k, next(k)) >= 0) play(bridge(k, next(k)));
     }
     const Control& wanted = space_.point(control_);
-    if (wanted.speed() == 0) return stands(space_, {speeds / played, 0, turns / played, 0});
+    if (wanted.speed() == 0) return space_.stands({speeds / played, 0, turns / played, 0});
     return goes_along(sum.x() / played, sum.y() / played, wanted);
   }
 

@@ -23,11 +23,6 @@ inline bool answers(const Control& evident, const Control& wanted) {
   return matches_jump(evident, wanted) && goes_along(evident.x, evident.y, wanted);
 }
 
-/// Whether what is evident is a stand: who stands shifts his weight, but does not turn, nearer to no turn than to one.
-inline bool stands(const ControlSpace& space, const Control& evident) {
-  return !space.asks_to_go(evident) && std::abs(evident.turn) < 0.5;
-}
-
 /// [controls]: the control that is performed in place of each. It is itself, but where it asks for motion that no class
 /// answers(): then it is the nearest one (ControlDis) that a class does answer, if there is any. `evident`: of the
 /// classes' representatives. A class that matches a control by 0 does not play.
