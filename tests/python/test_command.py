@@ -55,11 +55,16 @@ def test_a_broken_file_is_named_and_the_rest_is_built_from(
     for path in (folder / "takes").glob("*.bvh"):
         (tmp_path / path.name).write_bytes(path.read_bytes())
     (tmp_path / "a broken.bvh").write_text("HIERARCHY\n")
+    take = core.read_bvh(next(tmp_path.glob("*[!n].bvh")))
+    pose = core.Take(take.skeleton, "pose", take.rate, take.translations[:1], take.rotations[:1])
+    core.write_bvh(pose, tmp_path / "a pose.bvh")
     capsys.readouterr()
     assert run("build", tmp_path, "--policy", tmp_path / "rest.policy", "--classes", 20) == 0
     assert "left out: " in (said := capsys.readouterr().err) and "a broken.bvh:" in said
+    assert "a pose.bvh: holds a single pose, no motion" in said
     assert (tmp_path / "rest.policy").read_bytes() == (folder / "hero.policy").read_bytes()
-    assert run("build", tmp_path / "a broken.bvh", "--policy", tmp_path / "none.policy") == 1
+    for name in ("a broken.bvh", "a pose.bvh"):
+        assert run("build", tmp_path / name, "--policy", tmp_path / "none.policy") == 1
 
 
 def test_a_unit_that_is_surely_wrong_is_put_right_unless_it_is_told(

@@ -16,7 +16,7 @@ from .files import UNIT
 from .running import say
 
 _OF_UNIT = "unit"  # a finding's code
-_FEWEST = 2  # frames of a part
+_FEWEST = 2  # frames of a take, and of a part of one
 
 
 class FileTake(NamedTuple):
@@ -78,8 +78,9 @@ def _read_or_cause(path: Path, unit: float) -> core.Take | str:
 
 
 def read_mended(paths: Sequence[Path], unit: float | None) -> list[FileTake]:
-    """The takes, with what is surely wrong put right and said; a file that cannot be read is named and left out.
-    ValueError where that is each of them. `unit`: m in one of a BVH file; None: the body's size tells."""
+    """The takes, with what is surely wrong put right and said; a file that cannot be read, or that holds a single pose,
+    is named and left out. ValueError where that is each of them. `unit`: m in one of a BVH file; None: the body's size
+    tells."""
     others = [path for path in paths if by_blender.needs_blender(path)]
     own = [path for path in paths if path not in others]
     read = read_each(own, UNIT if unit is None else unit)
@@ -87,6 +88,8 @@ def read_mended(paths: Sequence[Path], unit: float | None) -> list[FileTake]:
     by_others, causes = _read_by_blender(others)
     takes += by_others
     causes += [cause for cause in read if isinstance(cause, str)]
+    causes += [f"{each.path}: holds a single pose, no motion" for each in takes if not _moves(each)]
+    takes = list(filter(_moves, takes))
     if not takes:
         raise ValueError("; ".join(causes))
     for cause in causes:
@@ -112,6 +115,10 @@ def _read_by_blender(paths: Sequence[Path]) -> tuple[list[FileTake], list[str]]:
             causes.append(str(error))
     core.tell_four_legs([each.take for each in takes])
     return takes, causes
+
+
+def _moves(each: FileTake) -> bool:
+    return len(each.take.rotations) >= _FEWEST
 
 
 def hear(_fraction: float, _stage: str) -> None:
