@@ -30,6 +30,7 @@ struct Line {
       t.last[std::size_t{3} * i * kLanes] = static_cast<float>(10 * random.uniform());
       Fragment fragment;
       if (random.below(3) > 0) fragment.evident = {0, 1.2, 0, 0};
+      if (random.below(6) == 0) fragment.evident = {0, 0, 1, 0};  // on the spot
       pool.fragments.push_back(fragment);
       classes.representatives.push_back(i);
       classes.labels.push_back(i);
@@ -51,7 +52,8 @@ TEST(StandBridges, GoBetweenFarClassesByTheShortestWay) {
         int expected = -1;
         double shortest = 1e30;
         for (int stand = 0; stand < 12; ++stand) {
-          if (line.pool.fragments[stand].evident.y != 0) continue;
+          const Control& evident = line.pool.fragments[stand].evident;
+          if (evident.y != 0 || evident.turn != 0) continue;
           const double there = transition_distance(line.t, from, stand), on = transition_distance(line.t, stand, to);
           if (direct > threshold && there < direct && on < direct && there + on < shortest) {
             shortest = there + on;

@@ -64,6 +64,23 @@ double stated_cost(const Choice& choice, const std::vector<EndVelocities>& ends,
 
 constexpr int kDraws = 200;  // so that each of some members is drawn
 
+TEST(TransitionCost, LetsATakeTurnOnTheSpotOnlyWhereThatIsAsked) {
+  const std::shared_ptr<const Character> character = gait_character();
+  const TransitionCost cost(*character, TransitionWeights());
+  int turning = 0, standing = 0;
+  for (std::size_t f = 0; f < character->pool.fragments.size(); ++f) {
+    const Control& evident = character->pool.fragments[f].evident;
+    if (evident.speed() > 0.1 || evident.jumps()) continue;
+    for (const double asked : {-1.0, 0.0, 1.0}) {
+      const bool fits = std::abs(evident.turn - asked) < 0.5;
+      EXPECT_EQ(cost.may_go_on(static_cast<int>(f), {0, 0, asked, 0}), fits) << f << " " << asked;
+      turning += fits && asked != 0, standing += fits && asked == 0;
+    }
+  }
+  EXPECT_GT(turning, 5);
+  EXPECT_GT(standing, 5);
+}
+
 TEST(FragmentSelector, ChoosesMembersThatCostNearlyAsLittleAsAnyByTheStatedEquation) {
   Choice choice(3);
   const Character& c = *choice.character;
@@ -309,8 +326,10 @@ TEST(FragmentSelector, GoesOnInTheTakeWhereThatJumpsGoesAndStopsAsAsked) {
       const Control& control = c.space.point(point);
       const int found = choice.selector.successor(fragment, control);
       const int after = next[fragment];
-      const bool stands = after >= 0 && (c.pool.fragments[after].evident.speed() * c.space.scale() <= kMoving ||
-                                         ends[after].last.norm() <= ends[after].first.norm() / 2);
+      const bool turns = after >= 0 && std::abs(c.pool.fragments[after].evident.turn - control.turn) >= 0.5;
+      const bool stands = after >= 0 && !turns &&
+                          (c.pool.fragments[after].evident.speed() * c.space.scale() <= kMoving ||
+                           ends[after].last.norm() <= ends[after].first.norm() / 2);
       const bool may = after >= 0 && matches_jump(c.pool.fragments[after].evident, control) &&
                        (control.speed() == 0 ? stands : answers(c.pool.fragments[after].evident, control));
       EXPECT_EQ(found, may ? after : -1);

@@ -10,11 +10,9 @@ std::vector<int> stand_bridges(const std::vector<Fragment>& fragments, const Tra
                                const ControlSpace& space, double threshold, const std::vector<bool>& allowed) {
   const std::vector<int>& representatives = classes.representatives;
   const double far = threshold * t.reach;
-  const int still = space.nearest({});
   std::vector<int> standing;
   for (int k = 0; k < classes.count; ++k) {
-    const bool stands = space.nearest(fragments[representatives[k]].evident) == still;
-    if (stands && (allowed.empty() || allowed[k])) standing.push_back(k);
+    if (space.stands(fragments[representatives[k]].evident) && (allowed.empty() || allowed[k])) standing.push_back(k);
   }
   std::vector<int> bridges;
   for (const int from : representatives) {

@@ -104,8 +104,10 @@ class ControlSpace {
 
   /// Whether a control asks to go, by single steps at least: for more than four fifths of kMoving.
   bool asks_to_go(const Control& control) const;
-  /// Whether a control is a stand: who stands shifts his weight, but does not turn, nearer to no turn than to one.
-  bool stands(const Control& control) const { return !asks_to_go(control) && std::abs(control.turn) < 0.5; }
+  /// Whether a control is a stand: who stands shifts his weight, but does not turn.
+  bool stands(const Control& control) const { return !asks_to_go(control) && !turns(control.turn); }
+  /// Whether a turn is nearer to one than to none.
+  static bool turns(double turn) { return std::abs(turn) >= 0.5; }
 
   /// The control without a turn or a jump where none can be asked for.
   Control admitted(const Control& control) const {

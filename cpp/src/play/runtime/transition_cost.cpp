@@ -39,6 +39,7 @@ bool TransitionCost::may_go_on(int fragment, const Control& control) const {
   const Character& c = *character_;
   const Control& evident = c.pool.fragments[fragment].evident;
   const auto stands = [&] {
+    if (ControlSpace::turns(evident.turn - control.turn)) return false;
     const bool slows_down = ends_[fragment].last.norm() <= ends_[fragment].first.norm() / 2;
     return slows_down || evident.speed() * c.space.scale() <= kMoving;
   };

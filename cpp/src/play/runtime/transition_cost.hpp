@@ -62,7 +62,7 @@ class TransitionCost {
   TransitionCost(const Character& character, const TransitionWeights& weights);
 
   /// Whether the take may go on with a fragment under a control: the policy may play it, and it jumps or does not, and
-  /// goes, or stands or brakes, as asked.
+  /// goes, or stands or brakes and turns or does not, as asked.
   bool may_go_on(int fragment, const Control& control) const;
   /// Of going on with a fragment as the successor under a control.
   float of_going_on(int fragment, const Control& control) const;
