@@ -75,19 +75,19 @@ def say_stand(character: Character) -> str:
 
 
 def say_acts(character: Character) -> str:
-    """Which takes are left out, as they do nothing but stand and another is named an idle; empty where none is."""
+    """Which takes are left out, as they do nothing but stand while others show how it stands; empty where none is."""
     takes, shown = map(_take_of, character.clip_names), np.bincount(character.fragment_clips)
     learned: dict[str, bool] = {}
     for clip, take in enumerate(takes):
         learned[take] = learned.get(take, False) or (clip < len(shown) and shown[clip] > 0)
-    idle = next((take for take, is_learned in learned.items() if is_learned and core.names_idle(take)), "")
+    idle = next((f"'{take}'" for take, is_learned in learned.items() if is_learned and core.names_idle(take)), "")
     acts = [f"'{take}'" for take, is_learned in learned.items() if not is_learned]
-    if not idle or not acts:
+    if not acts:
         return ""
     more = f" and {len(acts) - _SAID} more" if len(acts) > _SAID else ""
     return (
-        f"'{idle}' is how it stands; what else does nothing but stand is left out: {', '.join(acts[:_SAID])}{more}. "
-        "It may be a move"
+        f"{idle or 'What goes and rests'} is how it stands; what does nothing but stand besides is left out: "
+        f"{', '.join(acts[:_SAID])}{more}. It may be a move, or is a stand if its name says idle"
     )
 
 

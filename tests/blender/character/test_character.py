@@ -350,7 +350,7 @@ def test_build_leaves_out_what_only_stands_where_an_idle_does_and_says_so(
     for names, said in ((("Hero|Idle", "Hero|Wave"), True), (("Hero|Rest", "Hero|Wave"), False)):
         stand.name, act.name = names
         assert bpy.ops.fragmotion.build("EXEC_DEFAULT") == {"FINISHED"}
-        text = "'Hero|Idle' is how it stands; what else does nothing but stand is left out: 'Hero|Wave'"
+        text = "'Hero|Idle' is how it stands; what does nothing but stand besides is left out: 'Hero|Wave'"
         assert (text in capfd.readouterr().out) == said
         character = addon.character.building.load(obj)
         learned = {character.clip_names[clip] for clip in character.fragment_clips}

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "fragments/acts.hpp"
+#include "fragments/standing.hpp"
 #include "measured_clips.hpp"
 
 namespace fragmotion {
@@ -50,6 +51,33 @@ TEST(Acts, NoPlainIdleIsOne) {
   EXPECT_EQ(left_of(clips), left);
   const std::vector<Clip> armed = {clip_of("Sword_Idle", 0), clip_of("IdleGun", 0), clip_of("Walk", 1.2)};
   EXPECT_EQ(left_of(armed), fragments_by_clip(gait_pool(armed)));
+}
+
+// A walk that rests for so long, s, and takes on the spot, one of which moves slowly.
+FragmentPool resting_pool(double seconds) {
+  Gait walk;
+  walk.seconds = 12;
+  FragmentPool pool = gait_pool({gait_clip(walk, "Walk"), clip_of("Wave", 0), clip_of("Turn", 0, 1.2),
+                                 clip_of("Jump", 0, 0, 0.3), clip_of("Box", 0)});
+  double rests = 0;
+  int boxed = 0;
+  for (Fragment& f : pool.fragments) {
+    if (f.clip == 0 && rests + pool.seconds(f) < seconds) rests += pool.seconds(f), f.evident = {};
+    if (f.clip == 4) f.evident = ++boxed % 3 == 0 ? Control{0, 1.2, 0, 0} : Control{0, 0.5, 0, 0};
+  }
+  EXPECT_GE(rests, seconds - 0.5);
+  return pool;
+}
+
+TEST(Acts, AreWhatRestsMoreThanItMovesWhereWhatMovesRestsForLong) {
+  for (const double seconds : {0.5, 4.0}) {
+    FragmentPool pool = resting_pool(seconds);
+    std::vector<int> left = fragments_by_clip(pool);
+    if (seconds > kStandsLong) left[1] = 0, left[4] /= 3;
+    drop_acts(pool, kUsualSpace);
+    EXPECT_EQ(fragments_by_clip(pool), left) << seconds;
+    for (const Fragment& f : pool.fragments) EXPECT_TRUE(seconds < kStandsLong || f.clip != 4 || f.evident.y == 1.2);
+  }
 }
 
 // As all clips of a file may end in the armature's name; an image's name ends in another word.

@@ -5,27 +5,55 @@
 #include <limits>
 #include <vector>
 
+#include "fragments/standing.hpp"
 #include "skeleton/bone_names.hpp"
 
 namespace fragmotion {
 namespace {
 
-// Leaves out the acts of one origin: a mirror image has a word more in its name.
-void drop_acts(FragmentPool& pool, const ControlSpace& space, Origin origin) {
-  std::vector<char> only_stands(pool.clips.size(), 0);
-  for (const Fragment& f : pool.fragments) only_stands[f.clip] = f.origin == origin;
-  for (const Fragment& f : pool.fragments) only_stands[f.clip] &= space.stands(f.evident) && !f.evident.jumps();
-  std::vector<int> words(pool.clips.size(), -1);
-  int fewest = std::numeric_limits<int>::max();
-  for (std::size_t c = 0; c < words.size(); ++c) {
-    if (!only_stands[c]) continue;
-    words[c] = words_beside_idle(pool.clips[c].name);
-    if (words[c] >= 0) fewest = std::min(fewest, words[c]);
+// The acts among the clips of one origin: a mirror image has a word more in its name.
+class Acts {
+ public:
+  Acts(const FragmentPool& pool, const ControlSpace& space, Origin origin)
+      : pool_(pool), space_(space), origin_(origin), rest_(pool.clips.size(), 0), moves_(pool.clips.size(), 0) {
+    for (const Fragment& f : pool.fragments) {
+      if (f.origin == origin) (rests(f) ? rest_ : moves_)[f.clip] += pool.seconds(f);
+      if (f.origin == origin && f.evident.jumps()) moves_[f.clip] = std::numeric_limits<double>::infinity();
+    }
+    keep_idles();
   }
-  if (fewest == std::numeric_limits<int>::max()) return;
-  const auto of_act = [&](const Fragment& f) { return only_stands[f.clip] && words[f.clip] != fewest; };
-  pool.fragments.erase(std::remove_if(pool.fragments.begin(), pool.fragments.end(), of_act), pool.fragments.end());
-}
+
+  bool holds(const Fragment& f) const { return f.origin == origin_ && has_others_ && is_act(f.clip) && rests(f); }
+
+ private:
+  bool rests(const Fragment& f) const {
+    return space_.point(space_.nearest(f.evident)).speed() == 0 && !space_.turns(f.evident.turn) && !f.evident.jumps();
+  }
+
+  bool is_act(int clip) const { return rest_[clip] > moves_[clip]; }
+
+  // Idles are none; and there are others where there is an idle, or where those who move rest for long.
+  void keep_idles() {
+    std::vector<int> words;
+    int fewest = std::numeric_limits<int>::max();
+    double rest = 0;
+    for (std::size_t c = 0; c < rest_.size(); ++c) {
+      words.push_back(is_act(c) ? words_beside_idle(pool_.clips[c].name) : -1);
+      if (words[c] >= 0) fewest = std::min(fewest, words[c]);
+      if (!is_act(c)) rest += rest_[c];
+    }
+    for (std::size_t c = 0; c < rest_.size(); ++c) {
+      if (words[c] == fewest) moves_[c] = std::numeric_limits<double>::infinity();
+    }
+    has_others_ = fewest < std::numeric_limits<int>::max() || rest >= kStandsLong;
+  }
+
+  const FragmentPool& pool_;
+  const ControlSpace& space_;
+  Origin origin_;
+  std::vector<double> rest_, moves_;  // s, of each clip
+  bool has_others_ = false;
+};
 
 }  // namespace
 
@@ -40,7 +68,11 @@ int words_beside_idle(const std::string& name) {
 }
 
 void drop_acts(FragmentPool& pool, const ControlSpace& space) {
-  for (const Origin origin : {Origin::captured, Origin::mirrored}) drop_acts(pool, space, origin);
+  for (const Origin origin : {Origin::captured, Origin::mirrored}) {
+    const Acts acts(pool, space, origin);
+    const auto of_act = [&](const Fragment& f) { return acts.holds(f); };
+    pool.fragments.erase(std::remove_if(pool.fragments.begin(), pool.fragments.end(), of_act), pool.fragments.end());
+  }
 }
 
 }  // namespace fragmotion

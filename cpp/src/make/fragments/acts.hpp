@@ -11,9 +11,11 @@ namespace fragmotion {
 /// "SitIdle"; -1 where it has not that.
 int words_beside_idle(const std::string& name);
 
-/// Where clips stand whose names hold the word "idle", those of them that are named so by the fewest words are how the
-/// body stands: leaves the fragments of all others out of the pool that do nothing but stand. They are acts, as of who
-/// waves, shoots, sits or dies, which nobody asks for who lets go of the stick. Needs the fragments' evident controls.
+/// Leaves acts out of the pool: what waves, shoots, sits, dies or boxes, which nobody asks for who lets go of the
+/// stick. A clip is one that rests, slower than half a walk, for longer than it goes or turns, and does not jump. Of
+/// such clips whose names hold the word "idle", those that are named so by the fewest words are no acts, but how the
+/// body stands. Where there are any, or where the clips that are no acts rest for kStandsLong in all, the fragments in
+/// which acts rest are left out. Needs the fragments' evident controls.
 void drop_acts(FragmentPool& pool, const ControlSpace& space);
 
 }  // namespace fragmotion

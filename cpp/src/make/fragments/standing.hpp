@@ -6,6 +6,9 @@
 
 namespace fragmotion {
 
+/// s that takes stand, so that one does not see it begin again.
+constexpr double kStandsLong = 3;
+
 /// A character that stands for `frames` frames: the mean pose of the pool's slowest fragments, on the ground that they
 /// stand on, with both feet flat under their hip joints and the legs nearly straight. Symmetric where the pool holds
 /// the fragments' mirror images. A skeleton without two legs keeps those of the mean pose.
