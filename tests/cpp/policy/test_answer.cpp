@@ -17,18 +17,19 @@ struct Tables {
   ControlSpace space;
   Quality quality;
   std::vector<Control> evident;
-  std::vector<int> bridges;
+  std::vector<int> bridges, strikes;
   Policy policy;
 
   Tables(Random& random, int classes, bool bridged) : quality(random_quality(random, classes)) {
     for (int k = 0; k < classes; ++k) evident.push_back(space.point(random.below(kPaperPoints)));
+    strikes.assign(classes, 0);
     for (int i = 0; i < classes * classes; ++i) bridges.push_back(bridged ? random.below(5 * classes) : -1);
     for (int& bridge : bridges) bridge = bridge < classes ? bridge : -1;
     policy = {"random", classes, std::vector<int>(static_cast<std::size_t>(classes) * kPaperPoints)};
     for (int& next : policy.next) next = random.below(classes);
   }
 
-  void answer() { answer_motion(policy, quality, space, evident, bridges); }
+  void answer() { answer_motion(policy, quality, space, evident, bridges, strikes); }
 
   // Where the control, held, leads to from a class: what plays again and again.
   std::vector<int> cycle(int from, int control) const {
@@ -75,6 +76,35 @@ TEST(AnswerMotion, LeadsFromEveryClassToMotionThatIsAskedFor) {
       }
     }
   }
+}
+
+// Or the body glides, or hops on one leg.
+TEST(AnswerMotion, LeadsToWhereEachFootComesDown) {
+  constexpr int kBoth = 3;
+  Random random(13);
+  int stepping = 0;
+  for (int n = 0; n < 60; ++n) {
+    Tables tables(random, 2 + random.below(20), false);
+    for (int& feet : tables.strikes) feet = random.below(4);
+    tables.strikes[0] = kBoth;
+    tables.answer();
+    const std::vector<int> performed = answered_controls(tables.quality, tables.space, tables.evident);
+    for (int c = 0; c < kPaperPoints; ++c) {
+      const Control& wanted = tables.space.point(performed[c]);
+      if (wanted.speed() == 0 || wanted.jumps()) continue;
+      int feet = 0;
+      for (std::size_t k = 0; k < tables.evident.size(); ++k)
+        feet |= answers(tables.evident[k], wanted) ? tables.strikes[k] : 0;
+      if (feet != kBoth) continue;
+      for (int from = 0; from < tables.policy.classes; ++from) {
+        int in_cycle = 0;
+        for (const int k : tables.cycle(from, c)) in_cycle |= tables.strikes[k];
+        EXPECT_EQ(in_cycle, kBoth) << "from " << from << " at control " << c;
+        ++stepping;
+      }
+    }
+  }
+  EXPECT_GT(stepping, 1000);
 }
 
 TEST(AnswerMotion, DoesTheNearestThatThereIsForWhatThereIsNot) {
@@ -150,6 +180,7 @@ TEST(AnswerMotion, EndsAStandThatGreedyPrefersForEver) {
   Random random(11);
   Tables tables(random, 2, false);
   tables.evident = {{}, kAhead};
+  tables.strikes[walk] = 3;
   tables.quality.smoothness = {1, 0.173, 0.173, 1};
   const int ahead = tables.space.nearest(kAhead);
   std::fill_n(&tables.quality.match[0], kPaperPoints, 0.196);

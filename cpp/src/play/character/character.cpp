@@ -36,6 +36,21 @@ std::vector<Control> evident_of_classes(const Character& character) {
   return evident;
 }
 
+// The feet that come down in each class' representative, a bit each.
+std::vector<int> strikes_of_classes(const Character& character) {
+  std::vector<int> strikes;
+  for (const int representative : character.classes.representatives) {
+    const Fragment& fragment = character.pool.fragments[representative];
+    const Contacts& contacts = character.contacts[fragment.clip];
+    strikes.push_back(0);
+    for (int foot = 0; foot < kMostLegs; ++foot) {
+      for (int f = fragment.begin + 1; f <= fragment.end; ++f)
+        strikes.back() |= contacts.stands(foot, f) && !contacts.stands(foot, f - 1) ? 1 << foot : 0;
+    }
+  }
+  return strikes;
+}
+
 void measure_looks_and_arms(Character& character) {
   std::vector<const PackedPool*> pools;
   for (int style = 0; style < character.style_count(); ++style) pools.push_back(&character.in_style(style).pool);
@@ -45,12 +60,13 @@ void measure_looks_and_arms(Character& character) {
 
 void repair_policies(Character& character) {
   const std::vector<Control> evident = evident_of_classes(character);
+  const std::vector<int> strikes = strikes_of_classes(character);
   for (Policy& policy : character.policies) {
     std::vector<int> before;
     for (int round = 0; round < kRounds && policy.next != before; ++round) {
       before = policy.next;
       repair_policy(policy, character.quality, character.space, evident);
-      answer_motion(policy, character.quality, character.space, evident, character.bridges);
+      answer_motion(policy, character.quality, character.space, evident, character.bridges, strikes);
     }
   }
 }

@@ -27,20 +27,27 @@ std::vector<int> answering_classes(const Quality& quality, const ControlSpace& s
 class HeldControl {
  public:
   HeldControl(Policy& policy, const Quality& quality, const ControlSpace& space, const std::vector<Control>& evident,
-              const std::vector<int>& bridges, int control)
+              const std::vector<int>& bridges, const std::vector<int>& strikes, int control)
       : policy_(policy),
         quality_(quality),
         space_(space),
         evident_(evident),
         bridges_(bridges),
+        strikes_(strikes),
         control_(control),
-        answering_(answering_classes(quality, space, control, evident)) {}
+        answering_(answering_classes(quality, space, control, evident)) {
+    if (space.point(control).speed() == 0) return;
+    for (const int feet : strikes) all_strikes_ |= feet;
+  }
 
   void answer() {
     find_cycles();
     if (answering_.empty() || std::count(leads_to_answer_.begin(), leads_to_answer_.end(), 0) == 0) return;
     if (goals().empty()) {
-      for (const int k : answering_) next(k) = best_of(answering_, k);
+      for (const int k : answering_) {
+        const std::vector<int> steps = next_steps(k);
+        if (!steps.empty()) next(k) = best_of(steps, k);
+      }
       find_cycles();
     }
     const std::vector<int> goals = this->goals();
@@ -60,6 +67,15 @@ class HeldControl {
     return goals;
   }
 
+  // Classes that answer, in which a foot comes down that does not in this one.
+  std::vector<int> next_steps(int from) const {
+    std::vector<int> steps;
+    for (const int k : answering_) {
+      if ((strikes_[from] & all_strikes_) == all_strikes_ || (strikes_[k] & ~strikes_[from]) != 0) steps.push_back(k);
+    }
+    return steps;
+  }
+
   // Without a stand in between, if there is one.
   int best_of(const std::vector<int>& classes, int from) const {
     const auto is_better = [&](int a, int b) {
@@ -73,7 +89,9 @@ class HeldControl {
   bool is_answered(const std::vector<int>& cycle) {
     Vector2 sum = Vector2::Zero();
     double played = 0, speeds = 0, turns = 0;
+    int strikes = 0;
     const auto play = [&](int k) {
+      strikes |= strikes_[k];
       sum += Vector2(evident_[k].x, evident_[k].y), speeds += evident_[k].speed(), ++played;
       turns += std::abs(evident_[k].turn);
     };
@@ -83,7 +101,7 @@ class HeldControl {
     }
     const Control& wanted = space_.point(control_);
     if (wanted.speed() == 0) return space_.stands({speeds / played, 0, turns / played, 0});
-    return goes_along(sum.x() / played, sum.y() / played, wanted);
+    return strikes == all_strikes_ && goes_along(sum.x() / played, sum.y() / played, wanted);
   }
 
   // Finds which classes lead to a cycle that answers, and those of the cycles that do not.
@@ -113,7 +131,9 @@ class HeldControl {
   const ControlSpace& space_;
   const std::vector<Control>& evident_;
   const std::vector<int>& bridges_;
+  const std::vector<int>& strikes_;
   int control_;
+  int all_strikes_ = 0;  // of any class, where motion is asked for
   std::vector<int> answering_, unanswered_;
   std::vector<char> leads_to_answer_;
 };
@@ -140,11 +160,12 @@ std::vector<int> answered_controls(const Quality& quality, const ControlSpace& s
 }
 
 void answer_motion(Policy& policy, const Quality& quality, const ControlSpace& space,
-                   const std::vector<Control>& evident, const std::vector<int>& bridges) {
+                   const std::vector<Control>& evident, const std::vector<int>& bridges,
+                   const std::vector<int>& strikes) {
   for (int c = 0; c < policy.controls; ++c) {
     const Control& wanted = space.point(c);
     if (asks_for_motion(wanted) || asks_to_stand(wanted))
-      HeldControl(policy, quality, space, evident, bridges, c).answer();
+      HeldControl(policy, quality, space, evident, bridges, strikes, c).answer();
   }
   const std::vector<int> performed = answered_controls(quality, space, evident);
   for (std::size_t row = 0; row < policy.next.size(); row += policy.controls) {

@@ -34,8 +34,10 @@ std::vector<int> answered_controls(const Quality& quality, const ControlSpace& s
 /// classes that does not answer() it on average, or that goes or turns where it asks to stand, each class of the cycle
 /// is followed by the one of the greatest quality that leads to an answer instead; and a control of motion that no
 /// class answers is performed as answered_controls() says. `bridges`: stand_bridges(), which play in between. A table
-/// that is mended stays as it is when it is mended again.
+/// that is mended stays as it is when it is mended again. `strikes`: of each class, the feet that come down in it, a
+/// bit each; a cycle answers no motion in which not all feet do that come down in any class: it glides, or hops.
 void answer_motion(Policy& policy, const Quality& quality, const ControlSpace& space,
-                   const std::vector<Control>& evident, const std::vector<int>& bridges);
+                   const std::vector<Control>& evident, const std::vector<int>& bridges,
+                   const std::vector<int>& strikes);
 
 }  // namespace fragmotion
