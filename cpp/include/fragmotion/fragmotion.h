@@ -578,9 +578,9 @@ typedef struct FragmotionBody {
 
 /* In their next step, of so many seconds, its players keep clear of each other, with `radius` around each, and of
  * `count` others, who do not make way: each goes at the velocity next to what its input asks for by which none touches
- * another within 2 s, as long as all do so; who is held up goes round to the right, and waits where that does not help
- * him for 10 s. To be called before each step, on one thread. `others` may be null where `count` is 0. Allocates where
- * they are more than ever before. */
+ * another within 2 s, as long as all do so; who is held up goes round to the right, those whose input asks for nothing
+ * step aside for him, and he waits where that does not help him for 10 s. To be called before each step, on one thread.
+ * `others` may be null where `count` is 0. Allocates where they are more than ever before. */
 FRAGMOTION_EXPORT FragmotionResult fragmotion_crowd_make_way(FragmotionCrowd* crowd, float radius, double seconds,
                                                              const FragmotionBody* others,
                                                              int32_t count) FRAGMOTION_NOEXCEPT;

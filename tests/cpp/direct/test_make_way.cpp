@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <utility>
 
 #include "allocations.hpp"
 #include "direct/make_way.hpp"
@@ -162,6 +163,58 @@ TEST(MakeWay, GoesAllOfTheWayForWhoDoesNotYield) {
   walkers[1].yields = true;
   way.look(walkers);
   EXPECT_NEAR((way.clearance(0, kStep).nearest(wanted, kMost) - wanted).norm(), whole / 2, 1e-9);
+}
+
+// Who stays sees what the other one wants, who goes sees what he does.
+TEST(MakeWay, IsAskedToByWhatIsWanted) {
+  std::vector<Walker> walkers{{{0, 0}, {0, 0}, kRadius, true}, {{0.1, 1}, {0, 0}, kRadius, true}};
+  walkers[1].wish = {0, -1.4};
+  const auto made_way = [&](bool stays) {
+    walkers[0].stays = stays;
+    MakeWay way;
+    way.look(walkers);
+    return way.clearance(0, kStep).nearest(Vector2::Zero(), kMost).norm();
+  };
+  EXPECT_EQ(made_way(false), 0);
+  const double stepped = made_way(true);
+  EXPECT_GT(stepped, 0.1);
+  walkers[1].velocity = std::exchange(walkers[1].wish, Vector2::Zero());
+  EXPECT_EQ(made_way(false), stepped);
+}
+
+// Held up wholly for ten seconds one asks for nothing any more, and again after standing as long, but not while others
+// press.
+TEST(WayRound, AsksUntilItsPatienceEnds) {
+  const Vector2 wanted{0, 1.4};
+  MakeWay way;
+  way.look({{{0, 0}, {0, 0}, kRadius, true}, {{0, 2 * kRadius}, {0, 0}, kRadius, false}});
+  const Clearance free, blocked = way.clearance(0, kStep);
+  way.look({{{0, 0}, {0, 0}, kRadius, true}, {{0, 1.5 * kRadius}, {0, 0}, kRadius, false}});
+  const Clearance pressed = way.clearance(0, kStep);
+  WayRound round;
+  const auto spend = [&](const Clearance& clearance, const Vector2& asked, double seconds) {
+    for (int step = 0; step < std::lround(seconds / kStep); ++step) round.choose(clearance, asked, kMost, kStep);
+  };
+  const auto wish = [&] {
+    Walker walker{{0, 0}, {0, 0}, kRadius};
+    round.choose(blocked, wanted, kMost, 0);
+    round.show(walker);
+    EXPECT_FALSE(walker.stays);
+    return walker.wish.norm() / wanted.norm();
+  };
+  EXPECT_EQ(wish(), 1);
+  spend(blocked, wanted, 60);
+  EXPECT_NEAR(wish(), 0, 1e-9);
+  spend(pressed, Vector2::Zero(), 5);
+  EXPECT_NEAR(wish(), 0, 1e-9);
+  spend(free, Vector2::Zero(), 5);
+  EXPECT_NEAR(wish(), 0.5, 1e-9);
+  spend(free, wanted, 5);
+  EXPECT_NEAR(wish(), 1, 1e-9);
+  round.choose(free, Vector2::Zero(), kMost, kStep);
+  Walker walker{{0, 0}, {0, 0}, kRadius};
+  round.show(walker);
+  EXPECT_TRUE(walker.stays);
 }
 
 }  // namespace

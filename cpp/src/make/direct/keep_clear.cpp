@@ -106,7 +106,9 @@ class Heeding {
     const CharacterFrame at = player().frame();
     const Vector2 velocity = Eigen::Rotation2Dd(at.heading) * player().commanded_velocity();
     if (is_done()) return {place(at.position), Vector2::Zero(), radius, false};
-    return {place(at.position), way(velocity), radius + kGoesOn * way(velocity).norm(), true};
+    Walker walker{place(at.position), way(velocity), radius + kGoesOn * way(velocity).norm(), true};
+    way_round_.show(walker);
+    return walker;
   }
 
   // The next control, clear of all: things count where they are not heeded without being asked to.

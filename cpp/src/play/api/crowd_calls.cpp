@@ -37,6 +37,7 @@ void list_walkers(const FragmotionBody* others, int count, double radius, Fragmo
   for (const auto& player : crowd.players) {
     const CharacterFrame at = player->frame();
     crowd.walkers.push_back({at.position, turn_by(at.heading) * player->player.commanded_velocity(), radius, true});
+    player->way_round.show(crowd.walkers.back());
   }
   for (int i = 0; i < count; ++i) {
     const Axes& axes = crowd.players.front()->hero->axes;

@@ -9,7 +9,7 @@
 namespace fragmotion {
 namespace {
 
-constexpr std::uint32_t kStateVersion = 10;  // of what exchange() and PlayerState hold
+constexpr std::uint32_t kStateVersion = 11;  // of what exchange() and PlayerState hold
 constexpr char kStateMagic[9] = "FRAGSTAT";
 constexpr std::size_t kStateHeader = 16, kStateEnd = 8;  // bytes: magic, version and size; hash
 

@@ -330,6 +330,7 @@ void PlayerState::exchange(Archive& a, Steering& steering) {
 
 template <typename Archive>
 void PlayerState::exchange(Archive& a, WayRound& way_round) {
+  vector(a, way_round.wanted_, kMostSpeed);
   a.number(way_round.held_up_, 0, WayRound::kPatience);
 }
 

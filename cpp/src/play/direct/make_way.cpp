@@ -84,7 +84,8 @@ std::optional<Vector2> least_off(const Clearance& clearance, int moved, const Ve
 
 // By what the velocity of `one` as seen from `other` must change at least, and outward from what is forbidden.
 HalfPlane least_change(const Walker& one, const Walker& other, double seconds) {
-  const Vector2 way = other.place - one.place, velocity = one.velocity - other.velocity;
+  const Vector2 way = other.place - one.place,
+                velocity = one.velocity - other.velocity - (one.stays ? 1 : 0) * other.wish;
   const double apart = one.radius + other.radius, square = way.squaredNorm();
   const bool touch = square <= apart * apart;
   const double within = touch ? seconds : MakeWay::kAhead;
@@ -120,15 +121,21 @@ Vector2 Clearance::nearest(const Vector2& wanted, double most) const {
 }
 
 Vector2 WayRound::choose(const Clearance& clearance, const Vector2& wanted, double most, double seconds) {
+  const double square = wanted.squaredNorm();
   const auto held_up = [&](const Vector2& velocity) {
-    return std::clamp(1 - dot(velocity, wanted) / wanted.squaredNorm(), 0.0, 1.0);
+    if (square == 0) return velocity == Vector2::Zero() ? 0.0 : 0.5;
+    return std::clamp(1 - dot(velocity, wanted) / square, 0.0, 1.0);
   };
-  const Vector2 clear = clearance.nearest(wanted, most);
-  if (wanted == Vector2::Zero()) return held_up_ = 0, clear;
-  const double right_angles = held_up(clear) * (1 - held_up_ / kPatience);
+  const double right_angles = held_up(clearance.nearest(wanted, most)) * (1 - held_up_ / kPatience);
   const Vector2 chosen = clearance.nearest(Eigen::Rotation2Dd(-kPi / 2 * right_angles) * wanted, most);
   held_up_ = std::clamp(held_up_ + (2 * held_up(chosen) - 1) * seconds, 0.0, kPatience);
+  wanted_ = wanted;
   return chosen;
+}
+
+void WayRound::show(Walker& walker) const {
+  walker.stays = wanted_ == Vector2::Zero();
+  if (!walker.stays) walker.wish = (1 - held_up_ / kPatience) * (wanted_ - walker.velocity);
 }
 
 std::int64_t MakeWay::cell(const Vector2& place, int column, int row) const {

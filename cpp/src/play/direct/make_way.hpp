@@ -31,27 +31,33 @@ struct Clearance {
   Vector2 nearest(const Vector2& wanted, double most) const;
 };
 
-/// How one gets past others who want to go as well: by the right-hand rule of deadlocked robots and of people, who is
-/// held up turns to his right, the more so the more he is, up to a right angle. Who gets no further all the same, as
-/// where all want to be in one place, waits.
+/// One of many on the ground, as if it were round.
+struct Walker {
+  Vector2 place, velocity;         ///< m, m/s
+  double radius = 0;               ///< m
+  bool yields = true;              ///< Makes way; for who does not, others go all of the way.
+  bool stays = false;              ///< Wants to go nowhere: makes way for what others wish, too.
+  Vector2 wish = Vector2::Zero();  ///< m/s that it would have beside its velocity.
+};
+
+/// How one gets past others: by the right-hand rule of deadlocked robots and of people, who is held up turns to his
+/// right, the more so the more he is, up to a right angle; and those who stay see what he wants, as who stands about
+/// steps aside for who asks. Who gets no further all the same, as where all want to be in one place, waits. His
+/// patience comes back while he gets on, and while he stands and nobody presses.
 class WayRound {
  public:
   static constexpr double kPatience = 10;  ///< s of being held up wholly after which one waits.
 
   /// The velocity for the next `seconds`.
   Vector2 choose(const Clearance& clearance, const Vector2& wanted, double most, double seconds);
+  /// Lets others see what was wanted last.
+  void show(Walker& walker) const;
 
  private:
   friend struct PlayerState;
 
+  Vector2 wanted_ = Vector2::Zero();
   double held_up_ = 0;  // s, 0 .. kPatience
-};
-
-/// One of many on the ground, as if it were round.
-struct Walker {
-  Vector2 place, velocity;  ///< m, m/s
-  double radius = 0;        ///< m
-  bool yields = true;       ///< Makes way; for who does not, others go all of the way.
 };
 
 /// The velocities by which one keeps clear of another for MakeWay::kAhead; who touch part within so many `seconds`.
