@@ -2,7 +2,7 @@
 #include "fragments/successors.hpp"
 
 #include <algorithm>
-#include <map>
+#include <limits>
 #include <tuple>
 
 namespace fragmotion {
@@ -18,22 +18,19 @@ std::vector<int> successors(const std::vector<Fragment>& fragments) {
     return std::tuple(f.clip, f.origin, frame, number);
   };
   std::vector<std::tuple<int, Origin, int, int>> beginnings;
-  std::map<int, int> first_of_cycle;
   for (std::size_t f = 0; f < fragments.size(); ++f) {
-    const Fragment& fragment = fragments[f];
-    const int number = static_cast<int>(f);
-    beginnings.push_back(place(fragment, fragment.first_played(), number));
-    if (!is_of_cycle(fragment)) continue;
-    const auto [first, fresh] = first_of_cycle.emplace(fragment.clip, number);
-    if (fragment.begin < fragments[first->second].begin) first->second = number;
+    beginnings.push_back(place(fragments[f], fragments[f].first_played(), static_cast<int>(f)));
   }
   std::sort(beginnings.begin(), beginnings.end());
   std::vector<int> next;
   for (const Fragment& f : fragments) {
-    const auto found = std::lower_bound(beginnings.begin(), beginnings.end(), place(f, f.last_played(), 0));
-    const int number = found == beginnings.end() ? -1 : std::get<3>(*found);
-    const bool begins_there = number >= 0 && *found == place(f, f.last_played(), number);
-    next.push_back(begins_there ? number : is_of_cycle(f) ? first_of_cycle[f.clip] : -1);
+    const auto first_from = [&](int frame) {
+      return std::lower_bound(beginnings.begin(), beginnings.end(), place(f, frame, 0));
+    };
+    auto found = first_from(f.last_played());
+    const bool goes_on = found != beginnings.end() && *found == place(f, f.last_played(), std::get<3>(*found));
+    if (!goes_on && is_of_cycle(f)) found = first_from(std::numeric_limits<int>::min());
+    next.push_back(goes_on || is_of_cycle(f) ? std::get<3>(*found) : -1);
   }
   return next;
 }
