@@ -151,8 +151,9 @@ bool Director::is_due(const Control& control, bool changes, const Playback& play
 
 // What plays for the time of two fragments is compared: the take's next one and then the one after it, with what the
 // policy tells or the gait of the control, which is entered now and goes on in its own take. The last fragment of a
-// take leads to nothing: it is not gone on with.
-int Director::continuation(const Control& control, const Playback& playback, const FragmentSelector& selector) const {
+// take leads to nothing: it is not gone on with. A gait that is held varies; another take's is entered as it joins
+// best.
+int Director::continuation(const Control& control, const Playback& playback, FragmentSelector& selector) const {
   if (makes_way(playback) || playback.left() > kRounding) return -1;
   const Control wanted = this->wanted(control);
   const int found = selector.successor(playback.number(), wanted);
@@ -164,7 +165,10 @@ int Director::continuation(const Control& control, const Playback& playback, con
   const float going_on = second < 0 ? FragmentSelector::kAny : staying + selector.cost_of_going_on(second, wanted);
   const Cost left = selector.cost_of_leaving({next, gait}, wanted, playback, going_on);
   if (left.fragment < 0) return found;
-  return left.of_class == gait ? left.fragment : -1;
+  if (left.of_class != gait) return -1;
+  const std::vector<Fragment>& fragments = character_->pool.fragments;
+  const bool is_held = fragments[playback.number()].clip == fragments[left.fragment].clip;
+  return is_held ? selector.choose(gait, wanted, playback) : left.fragment;
 }
 
 int Director::decide(const Control& control, const Playback& playback, const FragmentSelector& selector) {

@@ -30,9 +30,9 @@ class Director {
   /// Whether a decision is due: what plays ends, is left early, or makes way for a forced class.
   /// `changes`: the control is another one the next time, so that nothing is planned ahead for it.
   bool is_due(const Control& control, bool changes, const Playback& playback, const FragmentSelector& selector);
-  /// The fragment with which the take that plays goes on at its end, or the gait of the control (held_gaits.hpp), where
-  /// that costs no more (transition_cost.hpp) than what the policy tells; otherwise -1.
-  int continuation(const Control& control, const Playback& playback, const FragmentSelector& selector) const;
+  /// The fragment with which the take that plays goes on at its end, or one of the gait of the control
+  /// (held_gaits.hpp), where that costs no more (transition_cost.hpp) than what the policy tells; otherwise -1.
+  int continuation(const Control& control, const Playback& playback, FragmentSelector& selector) const;
   /// Decides on the class that plays from now on, which it returns.
   int decide(const Control& control, const Playback& playback, const FragmentSelector& selector);
   /// Plays this class from now on, without a decision.

@@ -46,31 +46,55 @@ struct Footfalls {
   }
 };
 
+// A cycle that begins with a fragment and has so many, what it costs, and what of that how it performs.
+struct Cycle {
+  float cost;
+  int first = 0, count = 0;
+  float performing = 0;
+};
+
 // Of one control after the other.
 class GaitSearch {
  public:
   GaitSearch(const Character& character, const TransitionCost& cost, const std::vector<int>& successors,
-             const std::vector<EntrySteps>& steps)
-      : character_(character), cost_(cost), successors_(successors), steps_(steps), may_play_(steps.size()) {}
+             const std::vector<EntrySteps>& steps, float variety)
+      : character_(character),
+        cost_(cost),
+        successors_(successors),
+        steps_(steps),
+        variety_(variety),
+        may_play_(steps.size()) {}
 
   std::vector<int> find(const Control& control) {
-    least_ = std::numeric_limits<float>::infinity();
-    count_ = 0;
     const bool is_held = character_.space.asks_to_go(control) && !control.jumps();
     const int fragments = is_held ? static_cast<int>(may_play_.size()) : 0;
     for (int f = 0; f < fragments; ++f) {
       const Control& evident = character_.pool.fragments[f].evident;
       may_play_[f] = goes_along(evident.x, evident.y, control) && cost_.may_go_on(f, control) ? 1 : 0;
     }
-    for (int f = 0; f < fragments; ++f) look(f, control);
-    std::vector<int> gait(count_);
-    for (int& f : gait) f = begins_, begins_ = successors_[f];
+    Cycle best{std::numeric_limits<float>::infinity()};
+    for (int f = 0; f < fragments; ++f) {
+      if (may_play_[f] == 0) continue;
+      const Cycle found = least(f, control, best.cost);
+      if (found.count > 0) best = found;
+    }
+    std::vector<int> gait;
+    const Fragment& begins = character_.pool.fragments[best.first];
+    const bool is_captured = best.count > 0 && !is_made(begins.origin);
+    for (int f = best.first; static_cast<int>(gait.size()) < (is_captured ? 1 : best.count); f = successors_[f])
+      gait.push_back(f);
+    for (int f = 0; is_captured && f < fragments; ++f) {
+      if (f == best.first || character_.pool.fragments[f].clip != begins.clip) continue;
+      const Cycle found = least(f, control, best.cost + variety_);
+      if (found.count > 0 && found.performing <= best.cost && joins(best, f)) gait.push_back(f);
+    }
     return gait;
   }
 
  private:
-  // At those that begin with a fragment.
-  void look(int first, const Control& control) {
+  // Of those that begin with a fragment and cost less than `most`; of no fragments where there is none.
+  Cycle least(int first, const Control& control, float most) const {
+    Cycle best{most};
     int count = 0;
     Control mean;
     double seconds = 0;
@@ -80,10 +104,11 @@ class GaitSearch {
       ++count;
       mean = between(mean, fragment.evident, lasts / (seconds += lasts));
       const float performing = cost_.of_performing(mean, first, control);
-      if (successors_[f] < 0 || performing >= least_) continue;
+      if (successors_[f] < 0 || performing >= best.cost) continue;
       const float whole = performing + cost_.of_closing(successors_[f], first, seconds);
-      if (whole < least_ && steps_in_turns(first, count)) least_ = whole, begins_ = first, count_ = count;
+      if (whole < best.cost && steps_in_turns(first, count)) best = {whole, first, count, performing};
     }
+    return best;
   }
 
   bool steps_in_turns(int first, int count) const {
@@ -97,21 +122,28 @@ class GaitSearch {
     return falls.are_in_turns(static_cast<float>(seconds));
   }
 
+  // Whether a fragment joins on to any of a cycle.
+  bool joins(const Cycle& cycle, int fragment) const {
+    for (int f = cycle.first, i = 0; i < cycle.count; ++i, f = successors_[f]) {
+      if (cost_.of_joining(cost_.beside(f, fragment), 0) <= variety_) return true;
+    }
+    return false;
+  }
+
   const Character& character_;
   const TransitionCost& cost_;
   const std::vector<int>& successors_;
   const std::vector<EntrySteps>& steps_;
+  const float variety_;
   std::vector<char> may_play_;
-  float least_ = 0;             // that a gait costs so far,
-  int begins_ = 0, count_ = 0;  // with which fragment it begins, and how many it has
 };
 
 }  // namespace
 
 [[gnu::cold]] std::vector<std::vector<int>> held_gaits(const Character& character, const TransitionCost& cost,
                                                        const std::vector<int>& successors,
-                                                       const std::vector<EntrySteps>& steps) {
-  GaitSearch search(character, cost, successors, steps);
+                                                       const std::vector<EntrySteps>& steps, float variety) {
+  GaitSearch search(character, cost, successors, steps, variety);
   std::vector<std::vector<int>> gaits(character.space.size());
   for (std::size_t control = 0; control < gaits.size(); ++control)
     gaits[control] = search.find(character.space.point(static_cast<int>(control)));

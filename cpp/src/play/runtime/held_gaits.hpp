@@ -7,11 +7,16 @@
 
 namespace fragmotion {
 
-/// [controls] the gait of each while it is held: of all fragments that follow each other by their successors() under it
-/// and lead back to the first of them, captured and made alike, those that cost least (transition_cost.hpp) for what
-/// they perform together and, a step, for entering the first again. Their feet come down in turns. At most kLanes
-/// fragments; none of what jumps or does not ask to go, and where there are none.
+/// [controls] with which fragments the gait of each begins, anew and anew, while it is held, the best one first. A
+/// cycle is at most kLanes fragments that follow each other by their successors() under it and lead back to the first
+/// of them, feet coming down in turns. It costs (transition_cost.hpp) what they perform together and, a step, entering
+/// the first again. Those of a gait are of one take, as others have other manners; they cost no more than `variety`
+/// above the least, perform as asked for no more than the best one costs in whole, and begin in poses that join on to a
+/// fragment of the best one at `variety` at most, so that a held walk varies but neither ducks nor changes its manner.
+/// Where a made cycle costs least, no take goes as asked: that one alone, all of its fragments. None of what jumps or
+/// does not ask to go, and where there are none.
 std::vector<std::vector<int>> held_gaits(const Character& character, const TransitionCost& cost,
-                                         const std::vector<int>& successors, const std::vector<EntrySteps>& steps);
+                                         const std::vector<int>& successors, const std::vector<EntrySteps>& steps,
+                                         float variety);
 
 }  // namespace fragmotion

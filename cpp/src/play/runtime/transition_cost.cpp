@@ -60,7 +60,6 @@ float TransitionCost::of_going_on(int fragment, const Control& control) const {
   return of_performing(evident, made_[fragment], control) + unsteady_ * static_cast<float>(strays(fragment, control));
 }
 
-// The tip_distance() between the beginnings of two fragments.
 float TransitionCost::beside(int fragment, int other) const {
   const Character& c = *character_;
   const std::size_t row = c.entry_poses.size() / c.pool.fragments.size();

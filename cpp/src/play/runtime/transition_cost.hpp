@@ -72,6 +72,8 @@ class TransitionCost {
   }
   /// A step, of entering a fragment where one of its take would go on, every so many seconds.
   float of_closing(int next, int fragment, double seconds) const;
+  /// The tip_distance() between the beginnings of two fragments.
+  float beside(int fragment, int other) const;
   /// Of which one is the representative.
   Entrants entrants(const std::vector<int>& members, int representative) const;
   /// Writes perform() + enter() of each, infinite where it may not be entered, to a row of costs; in another it works.
@@ -92,7 +94,6 @@ class TransitionCost {
            bent_ * static_cast<float>(std::abs(evident.turn - control.turn)) + made;
   }
   double strays(int fragment, const Control& control) const;
-  float beside(int fragment, int other) const;
 
   const Character* character_;
   std::vector<EndVelocities> ends_;

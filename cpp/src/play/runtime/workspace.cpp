@@ -34,7 +34,9 @@ Workspace::Workspace(const Character& character, const PlayerConstants& constant
     TransitionCost cost(c, constants.transition);
     std::vector<int> next = successors(c.pool.fragments);
     std::vector<EntrySteps> steps = entry_steps(c, next);
-    const std::vector<std::vector<int>> gaits = held_gaits(c, cost, next, steps), classes = c.classes.members();
+    const auto variety = static_cast<float>(constants.transition.variety);
+    const std::vector<std::vector<int>> gaits = held_gaits(c, cost, next, steps, variety),
+                                        classes = c.classes.members();
     std::vector<Entrants> members(classes.size() + gaits.size());
     for (std::size_t k = 0; k < members.size(); ++k) {
       const bool is_gait = k >= classes.size();
