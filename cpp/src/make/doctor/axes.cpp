@@ -126,7 +126,7 @@ bool points_back(const Front& front) {
 }  // namespace
 
 Findings find_unit(const Patient& patient) {
-  if (!patient.has_legs() || (patient.skull < 0 && !patient.is_four_legged()) || patient.is_life_size()) return {};
+  if (!patient.has_legs() || patient.is_life_size()) return {};
   const std::optional<Unit> unit = told_unit(patient);
   if (!unit) return {};
   const std::string told = unit->name ? std::string("its file is in ") + unit->name + " (a unit of " +

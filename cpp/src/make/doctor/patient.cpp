@@ -79,7 +79,9 @@ void Patient::find_parts() {
     if (bone(Role::kForeFoot) >= 0) add_leg(kSides[side], Role::kForeLeg, Role::kRoot, Role::kForeFoot, Role::kForeToe);
   }
   hips = roles_.bone(Role::kHips);
-  skull = roles_.bone(Role::kHead);
+  for (const Role role : {Role::kSpine, Role::kNeck, Role::kHead}) {
+    if (!roles_.chain(role).empty()) skull = roles_.chain(role).back();
+  }
 }
 
 void Patient::add_leg(Side side, Role top, Role middle, Role end, Role toe) {

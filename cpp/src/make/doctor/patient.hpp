@@ -88,7 +88,7 @@ class Patient {
   /// arms.
   std::vector<Limb3> legs;
   std::array<Limb3, 2> arms;
-  int hips = -1, skull = -1;
+  int hips = -1, skull = -1;           ///< Without a head, the uppermost bone of neck or spine.
   std::vector<int> toes;               ///< Of each leg; -1 where it has none.
   std::vector<std::vector<int>> feet;  ///< Each leg's foot and all joints below, toes that no role tells among them.
 
