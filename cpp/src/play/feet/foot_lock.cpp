@@ -25,9 +25,9 @@ double clear_at(double speed) { return kSkateHeight * std::min(1.0, speed / kSta
 
 }  // namespace
 
-Vector2 StepEdit::moved(const Vector2& from_hips, double heading) const {
+StepEdit StepEdit::in_world(double heading) const {
   const Matrix2 turn = PlaneTurn(heading).matrix();
-  return turn * stride * turn.transpose() * from_hips + turn * shift;
+  return {turn * stride * turn.transpose(), turn * shift};
 }
 
 [[gnu::cold]] FootLock::Body::Body(const Kinematics& kinematics, const Legs& legs, const FeetConstants& constants)
@@ -216,8 +216,7 @@ void FootLock::apply(WorldPose& pose, const Contacts& contacts, const Frames& fr
   filters.set(seconds, constants);
   const Skeleton& skeleton = kinematics.skeleton();
   kinematics.world_below(pose.root, pose.rotations.data(), bones, posed.heads.data(), posed.rotations.data());
-  const Matrix2 heading = PlaneTurn(pose.heading).matrix(), longer = heading * edit.stride * heading.transpose();
-  const Vector2 shift = heading * edit.shift;
+  const StepEdit steps = edit.in_world(pose.heading);
   std::array<Vector3, kMostLegs> ankles;
   double strained = 0;
   settle(work.settles, seconds);
@@ -231,7 +230,7 @@ void FootLock::apply(WorldPose& pose, const Contacts& contacts, const Frames& fr
     const bool outlasts = hands_over && !contacts.stands(side, frames.now);
     feet_[side].holds = outlasts ? 1 : holds(side, contacts, frames, height, seconds);
     feet_[side].height = height;
-    const Vector2 edited = longer * (place - under(side, pose)).head<2>() + shift;
+    const Vector2 edited = steps.moved((place - under(side, pose)).head<2>());
     const Vector2 before = feet_[side].shown, held = away(side, place.head<2>() + edited, stands, seconds),
                   by = edited + held;
     const double speed = fresh_ || seconds == 0 ? 0 : (feet_[side].shown - before).norm() / seconds;

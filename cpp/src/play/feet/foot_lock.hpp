@@ -19,8 +19,10 @@ struct StepEdit {
   Matrix2 stride = Matrix2::Zero();
   Vector2 shift = Vector2::Zero();
 
-  /// By how much a foot is moved that is so far from the hips, m in the world, of a body that faces `heading`.
-  Vector2 moved(const Vector2& from_hips, double heading) const;
+  /// The same in the world, of a body that faces `heading`.
+  StepEdit in_world(double heading) const;
+  /// By how much a foot is moved that is so far from the hips, m.
+  Vector2 moved(const Vector2& from_hips) const { return stride * from_hips + shift; }
 };
 
 /// What feet do for a body at the moment.

@@ -62,7 +62,7 @@ class LookAhead {
   Sole later(int side, double seconds) const {
     course_.sample(seconds, later_);
     Sole at = sole(later_, side);
-    at = at.moved(course_.steps.moved(at.place() - later_.root.head<2>(), later_.heading));
+    at = at.moved(course_.steps.in_world(later_.heading).moved(at.place() - later_.root.head<2>()));
     for (Vector3* point : {&at.heel, &at.ball, &at.tip}) *point = in_time(*point, seconds);
     return at;
   }
