@@ -10,18 +10,6 @@ namespace {
 
 constexpr double kBlend = 0.3;  // s
 
-// The bone's rotation in the world, of a pose's rotations as in Clip.
-Quaternion world_rotation(const Skeleton& skeleton, int bone, const std::vector<double>& rotations) {
-  Quaternion world = load_quaternion(&rotations[std::size_t{4} * bone]);
-  for (int b = bone; b != skeleton.roles.hips;) {
-    b = skeleton.parents[b];
-    world = load_quaternion(&rotations[std::size_t{4} * b]) * world;
-  }
-  return world;
-}
-
-Quaternion about_z(double angle) { return Quaternion{Eigen::AngleAxisd(angle, Vector3::UnitZ())}; }
-
 void blend(const Quaternion& to, double weight, double* rotation) {
   double wanted[4];
   store_quaternion(to, wanted);
@@ -87,8 +75,9 @@ void UpperBody::lay(WorldPose& pose) const {
 
 void UpperBody::lay(const WorldPose& move, double weight, WorldPose& pose) const {
   const Skeleton& skeleton = workspace_->kinematics.skeleton();
-  const Quaternion below = world_rotation(skeleton, skeleton.parents[base_], pose.rotations),
-                   wanted = about_z(pose.heading - move.heading) * world_rotation(skeleton, base_, move.rotations);
+  const Quaternion below = world_turn(skeleton, skeleton.parents[base_], pose.rotations.data()),
+                   facing = CharacterFrame{{}, pose.heading - move.heading}.rotation(),
+                   wanted = facing * world_turn(skeleton, base_, move.rotations.data());
   blend(below.conjugate() * wanted, weight, &pose.rotations[std::size_t{4} * base_]);
   for (const int b : bones_) {
     const std::size_t at = std::size_t{4} * b;
