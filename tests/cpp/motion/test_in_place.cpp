@@ -88,6 +88,55 @@ TEST(FeetWay, IsToldByFeetThatAreNowhereLowForLong) {
   EXPECT_NEAR(way->mean.y(), 3, 0.15);
 }
 
+// The clip rolled about where it goes, on the ground, to its left.
+Clip leaning(const Skeleton& skeleton, Clip clip, double angle) {
+  for (int f = 0; f < clip.frames; ++f) {
+    const Eigen::Rotation2Dd facing(clip.headings[f]);
+    const Vector2 ahead = facing * Vector2::UnitY();
+    const Quaternion roll(Eigen::AngleAxisd(-angle, Vector3(ahead.x(), ahead.y(), 0)));
+    double *root = &clip.root_positions[std::size_t{3} * f],
+           *hips = &clip.rotations[std::size_t{4} * (f * skeleton.size() + skeleton.roles.hips)];
+    const Vector3 place = roll * load_vector(root);
+    std::copy_n(place.data(), 3, root);
+    store_quaternion(roll * load_quaternion(hips), hips);
+  }
+  clip.headings.clear();
+  return make_clip(skeleton, std::move(clip));
+}
+
+// With feet that do not turn while they stand, as of a gait that turns.
+Clip planted(const Skeleton& skeleton, Clip clip, const Gait& gait) {
+  for (int f = 0; f < clip.frames; ++f) {
+    for (const double side : {1.0, -1.0}) {
+      const double phase = f / gait.rate / gait.cycle + (side > 0 ? 0 : 0.5), part = phase - std::floor(phase);
+      const double stance = part < 0.6 ? part - 0.3 : 0.3 * (0.8 - part) / 0.2;
+      const int bone = skeleton.find(side > 0 ? "foot.L" : "foot.R");
+      double* foot = &clip.rotations[std::size_t{4} * (f * skeleton.size() + bone)];
+      const Eigen::AngleAxisd turned(-gait.turn * gait.cycle * stance, Vector3::UnitZ());
+      store_quaternion(load_quaternion(foot) * turned, foot);
+    }
+  }
+  return clip;
+}
+
+TEST(FeetWay, TurnsAsFeetDoIfTheBodyLeansAsFarAsThatPullsItOut) {
+  const Kinematics kinematics(humanoid());
+  const Skeleton& skeleton = kinematics.skeleton();
+  for (const double turn : {0.8, -0.8}) {
+    const Gait gait{0, 3, turn, 0.6, 60, 0.6};
+    const Clip run = planted(skeleton, on_the_spot(skeleton, gait_clip(gait), true), gait);
+    const double lean = std::atan(3 * turn / kGravity);
+    const auto upright = find_feet_way(kinematics, run);
+    const auto leant = find_feet_way(kinematics, leaning(skeleton, run, lean));
+    const auto outward = find_feet_way(kinematics, leaning(skeleton, run, -lean));
+    ASSERT_TRUE(upright && leant && outward);
+    EXPECT_EQ(upright->turn, 0);
+    EXPECT_EQ(outward->turn, 0);
+    EXPECT_NEAR(leant->turn, turn, 0.1);
+    EXPECT_NEAR(leant->mean.norm(), 3 - std::abs(turn) * 0.9 * std::sin(std::abs(lean)), 0.03) << "inside of its feet";
+  }
+}
+
 // An importer may have invented the end of a hoof, which then is in the ground where the foot swings: not low is what
 // goes back there, but the ankle's path tells forth from back.
 TEST(FeetWay, IsForthHoweverLongFeetAreThoughtToBe) {

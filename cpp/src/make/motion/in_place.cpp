@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/quantile.hpp"
+#include "motion/center_of_mass.hpp"
 #include "motion/contacts.hpp"
 #include "motion/cycle.hpp"
 #include "motion/gait_scale.hpp"
@@ -18,6 +19,8 @@ namespace {
 // Of a character of 1.8 m.
 constexpr double kStays = 0.4;       // m that hips on the spot go at most
 constexpr double kTurns = kPi / 12;  // rad/s: feet that stand turn by less in a gait that goes straight
+// Of its height over its feet, to a side: nine of ten strides of real takes that go straight lean by less.
+constexpr double kUpright = 0.02;
 
 Vector2 root_at(const Clip& clip, int f) { return load_vector(&clip.root_positions[std::size_t{3} * f]).head<2>(); }
 
@@ -61,48 +64,80 @@ Vector2 seen_mean(const Velocities& velocities, const Clip& clip) {
   return mean_velocity(seen);
 }
 
-// What a pair of feet tells, if it goes anywhere and the feet tread as the body goes.
-std::optional<FeetWay> way_of(const Treading& treading, const std::vector<SolePath>& soles, const Velocities& windows,
-                              FeetWay way, const Clip& clip, double scale) {
-  if (windows.empty()) return std::nullopt;
-  way.velocities = treading.steps(windows);
-  way.mean = seen_mean(way.velocities, clip);
-  const double speed = way.mean.norm();
-  const bool treads = treading.slowest() > kTreads * speed && tread(soles, speed * (clip.frames - 1) / clip.rate);
-  if (speed * gait_scale(scale) < kMoving || !treads) return std::nullopt;
-  return way;
-}
-
-// As a pair of feet tells it.
-std::optional<FeetWay> way_of(const std::vector<SolePath>& soles, const Clip& clip, double scale, bool turning) {
-  const Treading treading(soles, clip, scale);
-  if (!treading.is_long_enough()) return std::nullopt;
-  FeetWay way;
-  if (!turning) way.turn = treading.turn();
-  if (std::abs(way.turn) < kTurns) way.turn = 0;
-  const Vector2 center = middle(clip);
-  const Velocities stands = treading.velocities(way.turn, center), strides = treading.striding(way.turn, center);
-  way.by_legs = soles[0].points.size() > 1 && stands == strides;
-  if (auto told = way_of(treading, soles, stands, way, clip, scale)) return told;
-  way.by_legs = soles[0].points.size() > 1;
-  return way_of(treading, soles, strides, way, clip, scale);
-}
-
 FeetWay halfway(FeetWay a, const FeetWay& b) {
   for (std::size_t f = 0; f < a.velocities.size(); ++f) a.velocities[f] = (a.velocities[f] + b.velocities[f]) / 2;
   return {std::move(a.velocities), (a.turn + b.turn) / 2, (a.mean + b.mean) / 2, a.by_legs || b.by_legs};
 }
 
-// Of a four-legged body the mean of what the hind feet and the fore feet tell, if both do.
-std::optional<FeetWay> way_of(const Kinematics& kinematics, const Clip& clip) {
-  const double scale = standard_scale(kinematics.skeleton());
-  const std::vector<SolePath> soles = find_soles(kinematics, clip);
-  const bool turning = turns(kinematics, clip);
-  const std::optional<FeetWay> way = way_of({soles.begin(), soles.begin() + 2}, clip, scale, turning);
-  if (!way || soles.size() == 2) return way;
-  const std::optional<FeetWay> fore = way_of({soles.begin() + 2, soles.end()}, clip, scale, turning);
-  return fore ? std::optional(halfway(*way, *fore)) : std::nullopt;
-}
+// What the feet tell of a clip, which may be a cycle's rounds.
+class Told {
+ public:
+  Told(const Kinematics& kinematics, const Clip& clip, bool is_cycle)
+      : kinematics_(kinematics),
+        clip_(clip),
+        scale_(standard_scale(kinematics.skeleton())),
+        is_cycle_(is_cycle),
+        turns_(turns(kinematics, clip)),
+        center_(middle(clip)) {}
+
+  // Of a four-legged body the mean of what the hind feet and the fore feet tell, if both do.
+  std::optional<FeetWay> way() const {
+    const std::vector<SolePath> soles = find_soles(kinematics_, clip_);
+    const std::optional<FeetWay> way = this->way({soles.begin(), soles.begin() + 2});
+    if (!way || soles.size() == 2) return way;
+    const std::optional<FeetWay> fore = this->way({soles.begin() + 2, soles.end()});
+    return fore ? std::optional(halfway(*way, *fore)) : std::nullopt;
+  }
+
+ private:
+  // As a pair of feet tells it.
+  std::optional<FeetWay> way(const std::vector<SolePath>& soles) const {
+    const Treading treading(soles, clip_, scale_);
+    if (!treading.is_long_enough()) return std::nullopt;
+    FeetWay way;
+    way.turn = turn(treading);
+    const Velocities stands = treading.velocities(way.turn, center_), strides = treading.striding(way.turn, center_);
+    way.by_legs = soles[0].points.size() > 1 && stands == strides;
+    if (auto told = this->way(treading, soles, stands, way)) return told;
+    way.by_legs = soles[0].points.size() > 1;
+    return this->way(treading, soles, strides, way);
+  }
+
+  // If it goes anywhere and the feet tread as the body goes.
+  std::optional<FeetWay> way(const Treading& treading, const std::vector<SolePath>& soles, const Velocities& windows,
+                             FeetWay way) const {
+    if (windows.empty()) return std::nullopt;
+    way.velocities = treading.steps(windows);
+    way.mean = seen_mean(way.velocities, clip_);
+    const double speed = way.mean.norm();
+    const bool treads = treading.slowest() > kTreads * speed && tread(soles, speed * (clip_.frames - 1) / clip_.rate);
+    if (speed * gait_scale(scale_) < kMoving || !treads) return std::nullopt;
+    return way;
+  }
+
+  double turn(const Treading& treading) const {
+    const double turn = turns_ ? 0 : treading.turn();
+    return std::abs(turn) < kTurns || (is_cycle_ && !leans(treading, turn)) ? 0 : turn;
+  }
+
+  // Whether the body leans, on the mean, as one that turns as it goes: into the turn, as far as that pulls it out, or
+  // more so than not. Feet may pivot as they land and leave.
+  bool leans(const Treading& treading, double turn) const {
+    const Velocities stands = treading.velocities(turn, center_);
+    const Vector2 velocity = stands.empty() ? Vector2(0, 0) : seen_mean(treading.steps(stands), clip_);
+    const double pull = velocity.norm() * turn * scale_ / kGravity;
+    if (std::abs(pull) < kUpright) return true;
+    const Vector3 over_feet = treading.over_feet(center_of_mass(kinematics_, clip_));
+    const Vector2 left = Vector2(-velocity.y(), velocity.x()).normalized();
+    return left.dot(over_feet.head<2>()) / pull > 0.5 * over_feet.z();
+  }
+
+  const Kinematics& kinematics_;
+  const Clip& clip_;
+  double scale_;
+  bool is_cycle_, turns_;
+  Vector2 center_;
+};
 
 // The mean speed of each bone's end, seen from the hips, m/s.
 std::vector<double> bone_speeds(const Kinematics& kinematics, const Clip& clip) {
@@ -174,7 +209,8 @@ std::optional<FeetWay> find_feet_way(const Kinematics& kinematics, const Clip& h
   if (legs_with_feet(skeleton.roles).empty() || !stays(kinematics, clip)) return std::nullopt;
   const int period = cycle_of(kinematics, clip);
   const Clip round = period > 0 ? unrolled(kinematics, clip, period, 2 * period + clip.frames) : clip;
-  std::optional<FeetWay> way = way_of(kinematics, round);
+  const bool is_cycle = period > 0 || clip.frames <= kLongestCycle * clip.rate;  // or is meant to be one
+  std::optional<FeetWay> way = Told(kinematics, round, is_cycle).way();
   if (!way) return way;
   way->velocities.erase(way->velocities.begin(), way->velocities.begin() + period);
   way->velocities.resize(clip.frames - 1);

@@ -83,7 +83,7 @@ class Timeline {
   }
 
   std::vector<Span> motions() const {
-    if (goes_steadily(clip_)) return {};
+    if (goes_steadily(clip_) && stands({}, shortest_round()).empty()) return {};
     const std::vector<Span> rounds = gaits();
     std::vector<Span> found = joined(rounds);
     if (found.empty()) return found;
@@ -121,6 +121,8 @@ class Timeline {
     return Round{{first, last}, gap / most};
   }
 
+  int shortest_round() const { return std::max(4, static_cast<int>(std::lround(kShortestCycle * clip_.rate))); }
+
   // In the order of their lengths, none of which is less than the frames of its round. What cannot be apart from a gait
   // that is found is not looked at.
   std::vector<Span> gaits() const {
@@ -141,8 +143,7 @@ class Timeline {
         for (int f = 0; f < span.last; ++f) most[f] = f < span.first ? std::min(most[f], span.first) : -1;
       }
     };
-    const int least = std::max(4, static_cast<int>(std::lround(kShortestCycle * clip_.rate)));
-    for (int frames = least; !firsts.empty(); ++frames) {
+    for (int frames = shortest_round(); !firsts.empty(); ++frames) {
       const auto ends = [&](int first) { return first + frames > most[first]; };
       firsts.erase(std::remove_if(firsts.begin(), firsts.end(), ends), firsts.end());
       for (const int first : firsts) {

@@ -140,6 +140,27 @@ double Treading::slowest() const {
   return count > 0 ? sum / count : 0;
 }
 
+Vector3 Treading::over_feet(std::vector<Vector3> path) const {
+  bring_to(path, clip_rate_ / rate_, windows_ + span_);
+  std::vector<Vector3> over(soles_.size(), Vector3::Zero());
+  std::vector<double> weights(soles_.size(), 0);
+  for (const Tread& tread : treads_) {
+    const std::vector<Vector3>& foot = tread.point->path;
+    for (int f = 0; f < windows_; ++f) {
+      Vector3 apart = 0.5 * (path[f] + path[f + span_] - foot[f] - foot[f + span_]);
+      apart.head<2>() = Eigen::Rotation2Dd(-headings_[f]) * apart.head<2>();
+      over[tread.sole] += tread.stands[f] * apart;
+      weights[tread.sole] += tread.stands[f];
+    }
+  }
+  Vector3 mean = Vector3::Zero();
+  for (std::size_t side = 0; side < over.size(); ++side) {
+    if (weights[side] <= 0) return Vector3::Zero();
+    mean += over[side] / (weights[side] * static_cast<double>(over.size()));
+  }
+  return mean;
+}
+
 Velocities Treading::steps(const Velocities& windows) const {
   Velocities steps;
   for (int f = 0; f + 1 < clip_frames_; ++f) steps.push_back(at(windows, (f + 0.5) * rate_ / clip_rate_ - 0.5 * span_));
@@ -245,8 +266,8 @@ Vector2 Treading::add_circled(const std::vector<Vector3>& path, double turn, con
 }
 
 // What most of what stands agrees with, along the way, is how fast the body goes: a drawn foot may slap the ground, or
-// drag over it, at another speed. Of that what is fastest tells, no slower than its neighbours and the body's grip
-// allow: what is slower is about to leave. What goes forth does not stand, as low as it may be.
+// drag over it, at another speed. Of what goes about so what is fastest tells: what is slower is about to leave. What
+// goes forth does not stand, as low as it may be.
 Treading::Told Treading::told(const Velocities& way, double turn, const Vector2& center) const {
   std::vector<ToldSpeeds> along;
   for (const Tread& tread : treads_) {
@@ -258,12 +279,8 @@ Treading::Told Treading::told(const Velocities& way, double turn, const Vector2&
   Told told;
   if (usual.empty()) return told;
   const std::vector<int> which = standing(along, usual);
-  std::vector<double> speeds;
-  for (int f = 0; f < windows_; ++f)
-    speeds.push_back(which[f] < 0 ? -std::numeric_limits<double>::infinity() : along[which[f]].speeds[f]);
-  const std::vector<double> least = gripped(speeds);
   for (int f = 0; f < windows_; ++f) {
-    if (which[f] < 0 || speeds[f] < kSameSpeed * least[f]) continue;
+    if (which[f] < 0 || along[which[f]].speeds[f] < kSameSpeed * usual[f]) continue;
     told.windows.push_back(f);
     told.velocities.push_back(velocity(treads_[which[f]].point->path, f, turn, center));
   }
@@ -295,13 +312,6 @@ std::vector<int> Treading::standing(const std::vector<ToldSpeeds>& along, const 
 
 // By how much the speed may change from a window to the next, m/s: friction seldom gives more than the weight.
 double Treading::grip() const { return kGravity / scale_ / rate_; }
-
-// The least speeds that are as great as these and change no faster.
-std::vector<double> Treading::gripped(std::vector<double> speeds) const {
-  for (int f = 1; f < windows_; ++f) speeds[f] = std::max(speeds[f], speeds[f - 1] - grip());
-  for (int f = windows_ - 2; f >= 0; --f) speeds[f] = std::max(speeds[f], speeds[f + 1] - grip());
-  return speeds;
-}
 
 // What is told, and between that on the way from the one to the other.
 Velocities Treading::joined(const Told& told) const {

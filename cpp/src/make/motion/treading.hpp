@@ -40,6 +40,10 @@ class Treading {
   /// The speed at which what is low goes back, of the slower foot where both are, m/s: a mean.
   double slowest() const;
 
+  /// How far a path, of the clip's frames, is over what stands, as the body sees it: the mean of the feet, m. Zero
+  /// where a foot never stands.
+  Vector3 over_feet(std::vector<Vector3> path) const;
+
   /// For each step of the clip from a frame to the next the velocity in its middle.
   Velocities steps(const Velocities& windows) const;
 
@@ -69,7 +73,6 @@ class Treading {
   Vector2 add_circled(const std::vector<Vector3>& path, double turn, const Vector2& center, Velocities& sum) const;
   Told told(const Velocities& way, double turn, const Vector2& center) const;
   std::vector<int> standing(const std::vector<ToldSpeeds>& along, const std::vector<double>& usual) const;
-  std::vector<double> gripped(std::vector<double> speeds) const;
   Velocities joined(const Told& told) const;
   double grip() const;
 
