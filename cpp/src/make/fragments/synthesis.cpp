@@ -41,7 +41,7 @@ constexpr double kSimilar = 2.52 / kTunedReach;  // m a metre of reach: fragment
 constexpr int kCandidates = 24;                  // neighbours of a control that interpolation tries in pairs
 constexpr double kMostTempo = 1.2;  // the most by which steps are hurried: for speed, sideways, for legs to bear it
 constexpr double kStandSeconds = 0.5;
-constexpr int kStands = 48;        // fragments that stand, one after the other, until they begin again
+constexpr int kStands = 48;  // fragments that stand, one after the other, until they begin again
 
 double angle_between(const Control& a, const Control& b) {
   return wrapped(std::atan2(b.y, b.x) - std::atan2(a.y, a.x));
