@@ -22,7 +22,7 @@ struct Tables {
 
   Tables(Random& random, int classes, bool bridged) : quality(random_quality(random, classes)) {
     for (int k = 0; k < classes; ++k) evident.push_back(space.point(random.below(kPaperPoints)));
-    strikes.assign(classes, 0);
+    for (int k = 0; k < classes; ++k) strikes.push_back(random.below(5) - 1);
     for (int i = 0; i < classes * classes; ++i) bridges.push_back(bridged ? random.below(5 * classes) : -1);
     for (int& bridge : bridges) bridge = bridge < classes ? bridge : -1;
     policy = {"random", classes, std::vector<int>(static_cast<std::size_t>(classes) * kPaperPoints)};
@@ -85,7 +85,7 @@ TEST(AnswerMotion, LeadsToWhereEachFootComesDown) {
   int stepping = 0;
   for (int n = 0; n < 60; ++n) {
     Tables tables(random, 2 + random.below(20), false);
-    for (int& feet : tables.strikes) feet = random.below(4);
+    for (int& feet : tables.strikes) feet = std::max(feet, 0);
     tables.strikes[0] = kBoth;
     tables.answer();
     const std::vector<int> performed = answered_controls(tables.quality, tables.space, tables.evident);
@@ -111,6 +111,7 @@ TEST(AnswerMotion, DoesTheNearestThatThereIsForWhatThereIsNot) {
   Random random(8);
   Tables tables(random, 3, false);
   tables.evident = {{}, {0, 1.2, 0, 0}, {0, -1.2, 0, 0}};
+  std::fill(tables.policy.next.begin(), tables.policy.next.end(), 0);
   tables.answer();
   const ControlSpace& space = tables.space;
   const std::vector<int> performed = answered_controls(tables.quality, space, tables.evident);

@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "base/listed.hpp"
+#include "fragments/successors.hpp"
 #include "policy/answer.hpp"
 #include "policy/repair.hpp"
 
@@ -36,13 +37,14 @@ std::vector<Control> evident_of_classes(const Character& character) {
   return evident;
 }
 
-// The feet that come down in each class' representative, a bit each.
+// The feet that come down in each class' representative, a bit each; -1 of one that follows itself, which is a cycle.
 std::vector<int> strikes_of_classes(const Character& character) {
+  const std::vector<int> next = successors(character.pool.fragments);
   std::vector<int> strikes;
   for (const int representative : character.classes.representatives) {
     const Fragment& fragment = character.pool.fragments[representative];
     const Contacts& contacts = character.contacts[fragment.clip];
-    strikes.push_back(0);
+    strikes.push_back(next[representative] == representative ? -1 : 0);
     for (int foot = 0; foot < kMostLegs; ++foot) {
       for (int f = fragment.begin + 1; f <= fragment.end; ++f)
         strikes.back() |= contacts.stands(foot, f) && !contacts.stands(foot, f - 1) ? 1 << foot : 0;

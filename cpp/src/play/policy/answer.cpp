@@ -37,18 +37,15 @@ class HeldControl {
         control_(control),
         answering_(answering_classes(quality, space, control, evident)) {
     if (space.point(control).speed() == 0) return;
-    for (const int feet : strikes) all_strikes_ |= feet;
+    for (const int feet : strikes) all_strikes_ |= std::max(feet, 0);
   }
 
   void answer() {
     find_cycles();
     if (answering_.empty() || std::count(leads_to_answer_.begin(), leads_to_answer_.end(), 0) == 0) return;
-    if (goals().empty()) {
-      for (const int k : answering_) {
-        const std::vector<int> steps = next_steps(k);
-        if (!steps.empty()) next(k) = best_of(steps, k);
-      }
-      find_cycles();
+    if (goals().empty() && !steps_on()) {
+      all_strikes_ = 0;
+      return answer();
     }
     const std::vector<int> goals = this->goals();
     for (const int k : unanswered_) next(k) = goals.empty() ? next(k) : best_of(goals, k);
@@ -65,6 +62,19 @@ class HeldControl {
       if (leads_to_answer_[k]) goals.push_back(k);
     }
     return goals;
+  }
+
+  // Lets each class that answers be followed by one that does with another foot, if that makes a cycle that answers.
+  bool steps_on() {
+    const std::vector<int> before = policy_.next;
+    for (const int k : answering_) {
+      const std::vector<int> steps = next_steps(k);
+      if (!steps.empty()) next(k) = best_of(steps, k);
+    }
+    find_cycles();
+    if (all_strikes_ == 0 || !goals().empty()) return true;
+    policy_.next = before;
+    return false;
   }
 
   // Classes that answer, in which a foot comes down that does not in this one.
@@ -101,7 +111,7 @@ class HeldControl {
     }
     const Control& wanted = space_.point(control_);
     if (wanted.speed() == 0) return space_.stands({speeds / played, 0, turns / played, 0});
-    return strikes == all_strikes_ && goes_along(sum.x() / played, sum.y() / played, wanted);
+    return (strikes & all_strikes_) == all_strikes_ && goes_along(sum.x() / played, sum.y() / played, wanted);
   }
 
   // Finds which classes lead to a cycle that answers, and those of the cycles that do not.
@@ -133,7 +143,7 @@ class HeldControl {
   const std::vector<int>& bridges_;
   const std::vector<int>& strikes_;
   int control_;
-  int all_strikes_ = 0;  // of any class, where motion is asked for
+  int all_strikes_ = 0;  // of any class, where motion is asked for that can be stepped
   std::vector<int> answering_, unanswered_;
   std::vector<char> leads_to_answer_;
 };

@@ -35,7 +35,8 @@ std::vector<int> answered_controls(const Quality& quality, const ControlSpace& s
 /// is followed by the one of the greatest quality that leads to an answer instead; and a control of motion that no
 /// class answers is performed as answered_controls() says. `bridges`: stand_bridges(), which play in between. A table
 /// that is mended stays as it is when it is mended again. `strikes`: of each class, the feet that come down in it, a
-/// bit each; a cycle answers no motion in which not all feet do that come down in any class: it glides, or hops.
+/// bit each; -1 of a whole cycle. A cycle answers no motion in which not all feet do that come down in any class, as it
+/// glides or hops, unless none can be made of what does answer it.
 void answer_motion(Policy& policy, const Quality& quality, const ControlSpace& space,
                    const std::vector<Control>& evident, const std::vector<int>& bridges,
                    const std::vector<int>& strikes);
