@@ -71,10 +71,11 @@ class FRAGMOTION_OT_build(BuildFields, Building, bpy.types.Operator):
         )
         spare = say_lacking(built.character)
         undone = say_undone(built.done[0], built.character.space)
+        stands = say_stand(built.character) or say_acts(built.character)
         remarks = (
             *filter(NOTHING.__eq__, (figures.abilities,)),
             *self._warnings,
-            *filter(None, (spare, undone, say_acts(built.character), say_stand(built.character))),
+            *filter(None, (spare, undone, stands)),
             *lacking(building.coverage_by_style(built)),
         )
         for warning in remarks:
