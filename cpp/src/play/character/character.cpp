@@ -39,15 +39,24 @@ std::vector<Control> evident_of_classes(const Character& character) {
 
 // The feet that come down in each class' representative, a bit each; -1 of one that follows itself, which is a cycle.
 std::vector<int> strikes_of_classes(const Character& character) {
-  const std::vector<int> next = successors(character.pool.fragments);
+  const std::vector<Fragment>& fragments = character.pool.fragments;
+  const std::vector<int> next = successors(fragments);
+  std::vector<int> before;  // the frame that each goes on from, which is another one where a cycle begins anew
+  for (const Fragment& f : fragments) before.push_back(f.begin);
+  for (std::size_t f = 0; f < next.size(); ++f) {
+    if (next[f] >= 0) before[next[f]] = fragments[f].end;
+  }
   std::vector<int> strikes;
   for (const int representative : character.classes.representatives) {
-    const Fragment& fragment = character.pool.fragments[representative];
+    const Fragment& fragment = fragments[representative];
     const Contacts& contacts = character.contacts[fragment.clip];
     strikes.push_back(next[representative] == representative ? -1 : 0);
     for (int foot = 0; foot < kMostLegs; ++foot) {
-      for (int f = fragment.begin + 1; f <= fragment.end; ++f)
-        strikes.back() |= contacts.stands(foot, f) && !contacts.stands(foot, f - 1) ? 1 << foot : 0;
+      bool stands = contacts.stands(foot, before[representative]);
+      for (int f = fragment.begin; f <= fragment.end; ++f) {
+        strikes.back() |= !stands && contacts.stands(foot, f) ? 1 << foot : 0;
+        stands = contacts.stands(foot, f);
+      }
     }
   }
   return strikes;
