@@ -1079,8 +1079,8 @@ def abilities(character: Character, threads: int = 0) -> list[bool]:
     velocity and turn rate are within a fifth and 30 %; of those with a jump, which a fragment performs."""
 
 def names_idle(clip: str) -> bool:
-    """Whether a clip's name holds the word "idle", in any case. Of clips that do nothing but stand, those alone that
-    are named so by the fewest words have fragments in a character, where there are any."""
+    """Whether a clip's name holds the word "idle", in any case. Of clips that rest for longer than they go or turn,
+    those alone that are named so by the fewest words have fragments that rest in a character, where there are any."""
 
 def undone_controls(space: ControlSpace, done: Sequence[bool]) -> list[str]:
     """What can be asked for by the stick alone, as "run back", and is not done, as `abilities` tells; ValueError unless

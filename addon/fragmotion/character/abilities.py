@@ -75,20 +75,23 @@ def say_stand(character: Character) -> str:
 
 
 def say_acts(character: Character) -> str:
-    """Which takes are left out, as they do nothing but stand while others show how it stands; empty where none is."""
+    """Which takes nothing is learned from, as others show how it stands, or as they are T poses or too short; empty
+    where there are none."""
     takes, shown = map(_take_of, character.clip_names), np.bincount(character.fragment_clips)
     learned: dict[str, bool] = {}
     for clip, take in enumerate(takes):
         learned[take] = learned.get(take, False) or (clip < len(shown) and shown[clip] > 0)
-    idle = next((f"'{take}'" for take, is_learned in learned.items() if is_learned and core.names_idle(take)), "")
+    idle = next((take for take, is_learned in learned.items() if is_learned and core.names_idle(take)), "")
     acts = [f"'{take}'" for take, is_learned in learned.items() if not is_learned]
     if not acts:
         return ""
     more = f" and {len(acts) - _SAID} more" if len(acts) > _SAID else ""
-    return (
-        f"{idle or 'What goes and rests'} is how it stands; what does nothing but stand besides is left out: "
-        f"{', '.join(acts[:_SAID])}{more}. It may be a move, or is a stand if its name says idle"
+    why = (
+        f"'{idle}' is how it stands; what does nothing but stand besides is left out"
+        if idle
+        else "Nothing is learned from what only stands while what goes shows how it stands, or is too short"
     )
+    return f"{why}: {', '.join(acts[:_SAID])}{more}. It may be a move, or is a stand if its name says idle"
 
 
 def _take_of(clip: str) -> str:
